@@ -81,7 +81,7 @@ def sample(
     >>> from orderconds.families import get
     >>> from orderconds.series.action_trees import velocity
     >>> values = sample(partial(get("vcg").random_series, order=1), 1, [velocity()], 101)[velocity()].values
-    >>> values.size, int(values[-1])  # the flow is the last sample
+    >>> values.size, int(values[-1])  # the last entry is the right-hand side
     (26, 1)
     """
     count = _largest_rank(order) + SPARE_SAMPLES

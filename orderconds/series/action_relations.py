@@ -6,11 +6,11 @@ polynomial are computed from random methods and from the exact flow.
 
 Three relations of order 4 hold for variational Crouch-Grossman methods, but not for variational
 commutator-free methods. Let psi_p be the coefficient of a g*-valued tree p in the momentum of a stage
-(:mod:`orderconds.series.action`). The g*-valued tree L(w) is the :class:`Transport` with the word w. The
-module :mod:`orderconds.series.action_trees` explains these trees. Let s be the g-valued tree with one vertex.
-Let t be the g-valued tree with an empty word and the multiset that contains only L(s). Each stage of a
-variational Crouch-Grossman method satisfies ``psi_{L(t)} = 3 psi_{L(s s)} - psi_{L(s)}^2``. This equation
-implies the three relations.
+(:mod:`orderconds.series.action`). The module :mod:`orderconds.series.action_trees` defines the g-valued trees
+``o(w|M)`` with a word w and a multiset M, and the g*-valued trees ``L(w)`` with a word w. Let s be the
+g-valued tree ``o`` with one vertex, and let t be the g-valued tree ``o(|L(o))``. Each stage of a variational
+Crouch-Grossman method satisfies ``psi_{L(t)} = 3 psi_{L(s s)} - psi_{L(s)}^2``. This equation implies the
+three relations.
 """
 
 from __future__ import annotations
@@ -156,8 +156,8 @@ def _coefficients(
 
 
 def _monomials(trees: Sequence[Velocity], vertices: int, start: int = 0) -> Iterator[tuple[Velocity, ...]]:
-    """Yield the multisets of elements of ``trees[start:]``. The trees of each multiset have ``vertices``
-    vertices in total."""
+    """Yield all multisets of trees from ``trees[start:]`` in which the total number of vertices is
+    ``vertices``."""
     if vertices == 0:
         yield ()
     for place in range(start, len(trees)):

@@ -6,12 +6,13 @@ trees, and let M and N be multisets of trees. The trees A and B are
 - A: ``o(w | M, H(u*v | N))``,
 - B: ``o(u o(w | M) v | N)``.
 
-To obtain B, move the root of A to the neighbouring vertex H. The rest ``o(w | M)`` of A becomes a branch of H
-in place of the symbol ``*``, between the words u and v. For example, ``o(|H(*))`` becomes ``o(o)``.
+In A, the symbol H denotes a neighbour of the root. In B, this neighbour is the root, and is denoted by ``o``
+instead of H. The rest ``o(w | M)`` of A becomes a branch of the root of B in place of the symbol ``*``,
+between the words u and v. For example, ``o(|H(*))`` becomes ``o(o)``.
 
 The left-hand side of each condition contains one sum over the stages for the root of A, and one sum over the
-stages for H. In the conditions of A and B, only the order of these two sums is different. Therefore the
-left-hand sides are equal. The right-hand sides are equal, too.
+stages for the root of B. In the conditions of A and B, only the order of these two sums is different.
+Therefore the left-hand sides are equal. The right-hand sides are equal, too.
 """
 
 from __future__ import annotations

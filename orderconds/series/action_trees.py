@@ -171,8 +171,8 @@ def _inside(letters: str, momenta: Momenta) -> str:
 
 def mixing(word: Word) -> int:
     """Return one summand of the cost of a :class:`Velocity` with the word ``word``. If all letters of the
-    word are equal, the summand is zero. If a word of k letters has different letters, the summand is
-    5 (k - 1).
+    word are equal, the summand is zero. Otherwise, the summand is 5 (k - 1), where k is the number of
+    letters.
 
     The cost of a tree measures how difficult the order condition of the tree is to read.
 

@@ -3,8 +3,8 @@
 Each subtree t has a vector tau_t over the stages: tau_t(i) is the product of ``sum_j a_ij tau_u(j)`` over the
 branches u of t. HLW denotes Hairer, Lubich and Wanner, *Geometric Numerical Integration*.
 
-For some methods with irrational coefficients, the vectors are represented by rational polynomials
-(:mod:`orderconds.ring.nodal`).
+For some methods with irrational coefficients, a polynomial p with rational coefficients represents the vector
+tau_t: p(c_i) = tau_t(i) for each stage i with the abscissa c_i (:mod:`orderconds.ring.nodal`).
 """
 
 from __future__ import annotations
@@ -133,8 +133,9 @@ class Sums:
     def __init__(self, rows: Sequence[Sequence[tuple[int, Element]]], zero: Element) -> None:
         self._zero = zero
         self._steps: list[tuple[int, int, Element]] = []
-        """Triples (k, j, w) for the product of the matrix ``rows`` and a vector x. The n-th triple, counted
-        from 1, defines the partial sum s_n = s_k + w x_j. Here k is less than n, and s_0 is zero."""
+        """The product of the matrix ``rows`` and a vector x is computed from partial sums s_0 = 0, s_1, ....
+        The n-th triple (k, j, w), counted from 1, defines s_n = s_k + w x_j with k < n. Entry i of the
+        product is s_n with n = ``_ends[i]``."""
         known: dict[tuple[int, int, int], int] = {}
         self._ends = []
         for row in rows:

@@ -36,16 +36,18 @@ class BracketedSeries:
         return self.stage(len(self._rows) - 1, forest)
 
     def stage(self, i: int, forest: Forest) -> Element:
-        """Return the coefficient of a forest in exp(u_i), the exponential of stage i. If i is the number of
-        stages, exp(u_i) is the exponential of the step."""
+        """Return the coefficient of a forest in exp(u_i). Let s be the number of stages. For i = 0, ...,
+        s - 1, exp(u_i) is the exponential of stage i, counted from 0. For i = s, exp(u_i) is the exponential
+        of the step."""
         result = self._ring.zero if forest else self._ring.one
         for n in range(1, forest.count(0) + 1):
             result = result + self._power(i, n, forest) * self._ring.rational(1, factorial(n))
         return result
 
     def _power(self, i: int, n: int, word: Forest) -> Element:
-        """Return the coefficient of a word in u_i^n, where exp(u_i) is the exponential of stage i. If i is
-        the number of stages, exp(u_i) is the exponential of the step."""
+        """Return the coefficient of a word in u_i^n. Let s be the number of stages. For i = 0, ..., s - 1,
+        exp(u_i) is the exponential of stage i, counted from 0. For i = s, exp(u_i) is the exponential of the
+        step."""
         if n == 1:
             return self._combination(self._rows[i], word)
         if (i, n, word) not in self._powers:

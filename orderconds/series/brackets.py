@@ -43,8 +43,9 @@ class BracketProgram:
     - ``stages``: the rows of u_1, ..., u_s.
     - ``update``: the row of u.
     - ``least``: a lower bound for the number of brackets in every program that computes the arguments.
-    - ``grades``: for each stage j, the number g such that h q_j is of order h^g. Here q_j is the sum of k_j
-      and certain multiples of k_1, ..., k_(j-1) (module docstring).
+    - ``grades``: one number g for each stage j. Numbers c_1, ..., c_(j-1) are chosen such that
+      h (c_1 k_1 + ... + c_(j-1) k_(j-1) + k_j) is of order h^g, where g is as large as possible, but at most
+      the order of the method.
 
     >>> from orderconds.ring import QQ
     >>> euler = BracketProgram((), ({},), {("k", 0): QQ.one}, 0, (1,))
@@ -164,8 +165,8 @@ def _limit(algebra: GradedAlgebra, arguments: Sequence[Polynomial], i: int) -> i
 
 
 def _shared(algebra: GradedAlgebra, arguments: Sequence[Polynomial]) -> dict[int, list[Polynomial]]:
-    """Return candidates for intermediate results of a program that computes all arguments. The result maps an
-    index i to the polynomials that the program can compute before ``arguments[i]``."""
+    """Return a map from an index i to a list of polynomials. A program that computes these polynomials before
+    ``arguments[i]`` may need fewer brackets for a later argument."""
     one, shared = algebra.ring.one, dict[int, list[Polynomial]]()
     stages = [algebra.cut(u, algebra.largest - 1) for u in arguments[:-1]]
     for i, argument in enumerate(stages):
@@ -223,7 +224,8 @@ def _shapes(pool: int) -> Iterator[_Shape]:
 class _Search:
     """A search for a :class:`BracketProgram` with at most ``most`` brackets.
 
-    ``pool`` contains a pair (element, row) for each element that the program has computed so far.
+    ``pool`` contains a pair (element, row) for each element that the program has computed so far. The row
+    represents the element as a linear combination of brackets and stage values (:class:`BracketProgram`).
     """
 
     def __init__(
@@ -363,8 +365,8 @@ class _Search:
 
         - the row of the element (:class:`BracketProgram`)
         - the element as a polynomial
-        - the element y of the outer bracket [q_1 + x, y + C_1] (:class:`_Shape`) as a polynomial, or zero if
-          there is no outer bracket
+        - the polynomial y in the outer bracket [q_1 + x, y + C_1], or zero if there is no outer bracket
+          (:class:`_Shape` defines q_1, x, y and C_1)
         """
         one, size = self.ring.one, len(self.pool)
 

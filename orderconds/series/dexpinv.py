@@ -133,8 +133,9 @@ class DexpinvSeries:
         """Let x be a letter, and let u be a linear combination of non-empty words. Return those terms of the
         truncated series dexpinv_u x that can contain a word (v, x, w), where v is a word of ``before``
         letters, and w is a word of ``behind`` letters. Each term has the form q u^n x u^m with a coefficient
-        q, and is returned as the triple (q, m, n). The rightmost factor u^m acts first. Therefore the number
-        m comes before n in the triple, and v comes before w in the word.
+        q, and is returned as the triple (q, m, n). In a product, the rightmost factor acts first. In a word
+        and in the triple, the part that acts first is on the left. Therefore the rightmost factor u^m gives
+        v, the left part of the word, and m is on the left of n.
 
         - The factor u^m gives the word v. If ``before`` is zero, m is zero. If ``before`` is positive, m is
           one of the numbers 1, ..., ``before``.

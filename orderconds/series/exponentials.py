@@ -1,14 +1,15 @@
 """Coefficients of words in a product of exponentials, over any ring.
 
 Let the exponents X_1, ..., X_m be linear combinations of letters, where x_J(k) is the coefficient of the
-letter k in X_J. In the product exp(X_m) ... exp(X_1), the coefficient of the word k_1 ... k_n is the sum,
-over all indices J_1 <= ... <= J_n, of
+letter k in X_J. The word k_1 ... k_n denotes the product k_n ... k_1 of letters, because the first letter of
+a word and the rightmost factor of a product act first. The coefficient of this word in the product
+exp(X_m) ... exp(X_1) is the sum, over all indices J_1 <= ... <= J_n, of
 
 x_{J_1}(k_1) ... x_{J_n}(k_n) / (r_1! r_2! ...).
 
-The word k_1 ... k_n denotes the product k_n ... k_1 of its letters. A run is a maximal sequence of equal
-indices, and r_1, r_2, ... are the lengths of the runs of J_1, ..., J_n (Hairer, Lubich and Wanner, *Geometric
-Numerical Integration*, III.5; Reutenauer, Free Lie Algebras, Chapter 3).
+A run is a maximal sequence of equal indices, and r_1, r_2, ... are the lengths of the runs of J_1, ..., J_n
+(Hairer, Lubich and Wanner, *Geometric Numerical Integration*, III.5; Reutenauer, Free Lie Algebras,
+Chapter 3).
 """
 
 from __future__ import annotations
@@ -53,7 +54,7 @@ class ProductOfExponentials:
             values = [self._ring.zero]
             for J in range(self._count):
                 value, run = values[-1], None
-                # In each summand, the last r letters of ``word`` come from the factor exp(X_J).
+                # Summand r: exp(X_J) gives the last r letters of ``word``, earlier factors the other letters.
                 for r, letter in enumerate(letters, start=1):
                     x = letter[J]
                     if x is None:

@@ -56,10 +56,10 @@ class ExponentialsSeries:
         self._ring = ring
         self._rows: list[SparseRow] = []
         self._places: list[tuple[int, int, int]] = []
-        """A partial product consists of the first exponentials of a stage or of the update. The partial
-        products are numbered P_0, P_1, .... The product P_0 has no factors. For every other product P_p there
-        is one triple (p, q, r). The triple states that P_p = exp(X_r) P_q, where X_r is the exponent
-        ``_rows[r]``."""
+        """The product of the first n exponentials of a stage or of the update is called a partial product,
+        for each possible number n = 0, 1, .... The partial products are numbered P_0, P_1, .... The product
+        P_0 has no factors. For every other product P_p there is one triple (p, q, r). The triple states that
+        P_p = exp(X_r) P_q, where X_r is the exponent ``_rows[r]``."""
         known: dict[tuple[int, int], int] = {}
         numbers: dict[tuple[tuple[int, int], ...], int] = {}
 
@@ -116,7 +116,7 @@ class ExponentialsSeries:
 
     def _word(self, word: Forest) -> list[Element]:
         """Return the coefficients of ``word``, one for each partial product P_0, P_1, ... (``self._places``).
-        A partial product consists of the first exponentials of a stage or of the update."""
+        A partial product consists of the first n exponentials of a stage or of the update, with n >= 0."""
         values = self._words.get(word)
         if values is None:
             values = self._words[word] = self._along(word, self._places)
@@ -124,13 +124,13 @@ class ExponentialsSeries:
 
     def _along(self, word: Forest, places: Sequence[tuple[int, int, int]]) -> list[Element]:
         """Return a list of coefficients of a non-empty word, with one entry for each partial product P_0,
-        P_1, ... of exponentials. Each triple (p, q, r) in ``places`` selects the partial product
-        P_p = exp(X_r) P_q, where X_r is the exponent ``self._rows[r]``. If P_p is selected, entry p is the
-        coefficient of the word in P_p. Otherwise, entry p is zero."""
+        P_1, ... of exponentials. If ``places`` contains a triple (p, q, r), entry p is the coefficient of the
+        word in P_p = exp(X_r) P_q, where X_r is the exponent ``self._rows[r]``. All other entries are
+        zero."""
         starts = [place for place, level in enumerate(word) if level == 0]
         whole = len(starts)
-        # ``heads[r - 1][p]`` is the coefficient of a shorter word in the product of exponentials with the
-        # index p. The shorter word is ``word`` without its last r trees.
+        # Remove the last r trees from ``word``. The remaining word has the coefficient ``heads[r - 1][p]`` in
+        # the partial product P_p.
         heads = [self._word(word[:start]) for start in starts[:0:-1]]
         letters = [self._letter(tree) for tree in trees_of(word)[::-1]]
         factorials = [self._inverse_factorial(r) for r in range(whole + 1)]

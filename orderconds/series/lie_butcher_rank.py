@@ -1,7 +1,7 @@
-"""Selection of independent order conditions for a family of methods, with one condition for each ordered
-forest.
+"""Selection of independent order conditions for a family of methods.
 
-The left-hand sides for random methods form a matrix with one row for each method and one column for each
+Each ordered forest gives one order condition. Independent conditions are selected from these conditions. The
+left-hand sides for random methods form a matrix with one row for each method and one column for each
 condition. A condition is omitted if two requirements are met. First, its left-hand side is a linear
 combination of earlier left-hand sides and of products of left-hand sides of lower order. Second, the
 right-hand sides (coefficients of the exact flow) satisfy the same relation.

@@ -37,8 +37,9 @@ of the Lie algebra.
 - The entry () denotes the derivative along the vector field of the equation y' = f(y) y.
 - The entry (None,) denotes the derivative along the vector field of the equation y' = g(y) y. Here g is the
   derivative of f along the vector field of the equation y' = k y.
-- In general, an entry that is a tuple denotes the derivative along the vector field of the equation
-  y' = g(y) y. To obtain g, read the tuple itself as a product of derivatives, and apply this product to f.
+- In general, let the entry be a tuple e. The tuple e is a product of derivatives, too. Apply this product to
+  f, and let g be the result. The entry denotes the derivative along the vector field of the equation
+  y' = g(y) y.
 """
 
 Combination = dict[Operator, int]

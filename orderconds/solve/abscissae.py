@@ -1,4 +1,4 @@
-"""Tableaux whose three abscissae are equal: c_i = chat_i = m_i.
+"""Tableaux in which each stage i has three equal abscissae: c_i = chat_i = m_i.
 
 Stage i of a variational method on a Lie group has three abscissae: c_i for the position q, chat_i for the
 forces on the momentum, and m_i for the transport of the momentum by Ad* (the coadjoint action). Let beta_J^i

@@ -286,8 +286,9 @@ def _proved(
     digits: dict[str, str] = {}
     with precision(BITS):
         for name, x in sharp.items():
-            # In a tableau file, ``0.5~`` and ``-0.5~`` denote u and -u with one unknown u. Therefore the
-            # decimals of two unknowns must have different absolute values.
+            # In a tableau file, decimals with the same absolute value belong to the same unknown u: if
+            # ``0.5~`` denotes u, ``-0.5~`` denotes -u. Therefore the decimals of two unknowns must have
+            # different absolute values.
             places = DIGITS
             while (decimal := _signed(x, places)).lstrip("-") in {y.lstrip("-") for y in digits.values()}:
                 places += 1

@@ -49,8 +49,9 @@ def closed_forms(
     :data:`MAX_DEGREE`. A closed form is a rational combination of basis elements. Three bases are tried:
 
     - 1 and the square roots
-    - the elements of the first basis, multiplied by r^0, ..., r^(d-1). Consider the numbers that are not
-      rational combinations of the first basis. Of these, r is a number of the lowest degree d.
+    - Let r be a number of the lowest degree d among the numbers that are not rational combinations of the
+      first basis. The second basis consists of the products of an element of the first basis and one of the
+      powers r^0, ..., r^(d-1).
     - the powers r^0, ..., r^(d-1) of an algebraic number r of degree d, where d is the largest of the degrees
       of the numbers
 
@@ -188,8 +189,8 @@ def _square_root(p: fmpz_poly) -> tuple[arb, str, tuple[str, ...]]:
 
 
 def _named(x: arb, p: fmpz_poly) -> tuple[arb, str, tuple[str, ...]]:
-    """Return three values for an approximate root x of p: the number x, its name ``r`` in a tableau file, and
-    the lines of the file that define ``r``."""
+    """Let x be an approximate root of p. Return three values: x unchanged, the name ``r`` of the root in a
+    tableau file, and the lines of the file that define ``r``."""
     monic = fmpq_poly([fmpq(c) for c in p.coeffs()]) / fmpq(p[p.degree()])
     place = min(
         range(len(real_roots(monic, 128))), key=lambda k: float(abs(real_roots(monic, 128)[k] - x).mid())

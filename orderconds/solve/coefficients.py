@@ -48,7 +48,7 @@ def eliminated(
     elimination.impose([*constraints, *fixed])
     for name in names:
         form = elimination.cell(name)
-        # The search bounds only the coefficients that are not constants.
+        # Constant coefficients are checked here, because the search bounds only the other coefficients.
         if spec.size is not None and set(form) <= {""} and abs(form.get("", Fraction(0))) > spec.size:
             raise InputError(
                 f"the constraints imply {name} = {spell(form)}",

@@ -115,16 +115,16 @@ def infeasible(problem: Problem) -> Infeasible | None:
     # The formulas of symplectic methods divide by the weights, so the proof considers only methods with
     # nonzero weights. Some options make this an assumption (``Ansatz.assumptions``). Without these options, a
     # method with a zero weight computes the same step as a method with nonzero weights: if b_i = 0,
-    # symplecticity implies a_ji = 0 for each stage j with b_j != 0. Hence stage i has no effect on the step.
-    # Replace stage i by a copy of such a stage j, and divide b_j and all coefficients a_1j, ..., a_sj equally
-    # between stage j and the copy.
+    # symplecticity implies a_ki = 0 for each stage k with b_k != 0. Hence stage i has no effect on the step.
+    # Choose a stage j with b_j != 0. To construct a method with fewer zero weights, replace stage i by a copy
+    # of stage j, and divide b_j and all coefficients a_1j, ..., a_sj equally between stage j and the copy.
     divides = problem.family.needs_nonzero_weights or problem.family.symplectic
     ring = LaurentPolynomials(names) if divides else Polynomials(names)
     try:
         values = problem.residuals(ring.generators, cast("RootedRing", ring), _conditions(problem))
         nonzero = _nonzero(problem, ring)
-        # An ansatz that contains methods that are not symplectic could lack some symplectic methods. A proof
-        # for this ansatz would not be valid for the missing methods.
+        # The formulas of the ansatz must solve the equations of symplecticity. Otherwise, the formulas could
+        # also exclude symplectic methods, and a proof would not be valid for the excluded methods.
         if problem.family.symplectic and not _is_symplectic(problem, ring):
             return None
     except (

@@ -16,10 +16,10 @@ from orderconds.solve.spec import Spec, refuse
 from orderconds.solve.tableau_ansatz import tableau_structures
 
 MIRRORED = (
-    "of the m exponentials of the update, exponential m+1-J has the coefficients of exponential J in reverse "
-    "order; for odd m and s, the middle stage continues with an exponential that has half the coefficients "
-    "of the middle exponential of the update; the remaining exponentials of stage i have the exponents X_i1, "
-    "X_i2, ..., and X_(s+1-i)r has the coefficients of -X_ir in reverse order"
+    "the update has m exponentials, and exponential m+1-J has the coefficients of exponential J in reverse "
+    "order; if m and s are odd, exponential (m+1)/2 of the middle stage has half the coefficients of "
+    "exponential (m+1)/2 of the update; X_i1, X_i2, ... are the exponents of stage i that are not mentioned "
+    "above; X_(s+1-i)r has the coefficients of -X_ir in reverse order"
 )
 """The assumptions about symmetric methods (:mod:`orderconds.solve.paths`)."""
 
@@ -100,7 +100,9 @@ exponentials, with n = 0, 2'
     if not symmetric:
         return numbers
     begins = ", ".join(map(str, shared))
-    return f"{numbers}; stage i begins with k_i exponentials of the update, with k = {begins}; {MIRRORED}"
+    return (
+        f"{numbers}; stage i begins with the first k_i exponentials of the update, k = {begins}; {MIRRORED}"
+    )
 
 
 def _abscissae(
@@ -110,13 +112,13 @@ def _abscissae(
     formulas, the three abscissae of each stage are equal. The module :mod:`orderconds.solve.abscissae`
     defines the abscissae.
 
-    Let a_ij be the sum of the coefficients of stage j in all exponentials of stage i. The map contains
-    formulas for
+    Let k_j be the value of stage j, and let a_ij be the sum of the coefficients of k_j in all exponentials of
+    stage i. The map contains formulas for
 
     - the numbers in :func:`commutator_free_times`;
     - the sums a_ij; if a sum can be chosen freely, its name is mapped to itself;
-    - the coefficients of the last exponential of each stage i: the coefficient of stage j is a_ij minus the
-      coefficients of stage j in the other exponentials of stage i.
+    - the coefficients in the last exponential of each stage i: the coefficient of k_j is a_ij minus the
+      coefficients of k_j in the other exponentials of stage i.
     """
     every = range(1, len(stages) + 1)
     for name in (x for path in stages for line in path for x in line):
@@ -139,8 +141,8 @@ def _abscissae(
 
 
 def _gauss(s: int) -> dict[str, str]:
-    """Return the weights w1, w2, ... and the entries g11, g12, ... of A of the Gauss method with s stages, as
-    a map from names to formulas."""
+    """Return a map from names to formulas for the coefficients of the Gauss method with s stages. The names
+    w1, w2, ... denote the weights, and g11, g12, ... denote the entries of the coefficient matrix."""
     from orderconds.tableau.collocation import construct
 
     tableau = construct("gauss", s)

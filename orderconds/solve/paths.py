@@ -28,8 +28,8 @@ from orderconds.solve.spec import Spec
 
 Path = list[list[str]]
 Paths = tuple[list[Path], Path, list[str], list[Constraint]]
-"""A parametrised method: the stages, the update, the names of all coefficients, and the constraints. In each
-list of exponentials, the exponential with index 0 acts first."""
+"""A parametrised method: the stages, the update, the names of all coefficients, and the constraints. Each
+stage and the update is a list of exponentials. The exponential with index 0 acts first."""
 
 
 def full_paths(spec: Spec) -> Paths:

@@ -112,10 +112,10 @@ class Problem:
 
     @cached_property
     def coefficients(self) -> Tape:
-        """Return a program whose inputs are the free coefficients.
+        """Return a program that computes coefficients of the method from the free coefficients.
 
-        The first outputs are the coefficients that are not constants (``ansatz.cells``). The remaining
-        outputs are the weights b_i (:meth:`weights`).
+        The first outputs are the free coefficients and all coefficients that depend on them
+        (``ansatz.cells``). The remaining outputs are the weights b_i (:meth:`weights`).
         """
         ring = Traces(len(self.ansatz.free))
         cells = self.ansatz.coefficients(ring.inputs, ring)
@@ -136,7 +136,7 @@ class Problem:
                 raise InputError(
                     f"{wish!r}",
                     where="--positive",
-                    expected=f"b, or a coefficient that is not constant: {', '.join(names)}",
+                    expected=f"b (all weights), or one of the nonconstant coefficients {', '.join(names)}",
                 )
             indices += places
         return tuple(indices)

@@ -93,7 +93,8 @@ def _assumptions(family: Family, spec: Spec) -> tuple[str, ...]:
         assumptions.append("a_ij + a_(s+1-i)(s+1-j) = b_j for all i and j")
     if spec.fsal:
         assumptions.append("a_1j = 0 and a_sj = b_j for all j")
-    # Without these options, a stage with the weight zero can be replaced by a stage with a nonzero weight
+    # The options --dirk, --symmetric and --fix require this assumption. In all other cases, a stage with the
+    # weight zero can be replaced by a stage with a nonzero weight
     # (:func:`orderconds.solve.elimination.infeasible`).
     if family.symplectic and not family.needs_nonzero_weights and (spec.dirk or spec.symmetric or spec.fix):
         assumptions.append("all weights b_i are nonzero")

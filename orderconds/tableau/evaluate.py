@@ -9,8 +9,8 @@ The first of these rules that applies determines the ring:
 - If the degree is larger, all coefficients are balls.
 
 Equal expressions in one file are evaluated only once, so their values are the same Python object. Therefore
-two coefficients are known to be equal if their ball is the same object. Different ball objects in general
-cannot prove that two coefficients are equal.
+two coefficients are known to be equal if their ball is the same object. If the balls of two
+coefficients are different objects and overlap, it is unknown whether the coefficients are equal.
 """
 
 from __future__ import annotations

@@ -30,8 +30,8 @@ MAX_PARTS = 6
 
 class RootEntry(Struct, forbid_unknown_fields=True):
     """A real root of a polynomial. ``minpoly`` contains the coefficients of the polynomial, beginning with
-    the constant term. The polynomial must have exactly one real root within one unit of the last digit of the
-    decimal ``near``."""
+    the constant term. The distance from the decimal ``near`` to exactly one real root of the polynomial must
+    be at most one unit in the last digit of ``near``."""
 
     minpoly: list[Coefficient]
     near: str
@@ -92,8 +92,9 @@ class Format(Struct, forbid_unknown_fields=True, kw_only=True):
 
     @classmethod
     def defaults(cls, names: Collection[str]) -> Data:
-        """Return default values for keys that a file of arrays does not contain. ``names`` contains the names
-        of the arrays in the file."""
+        """Return a map from keys of a tableau file to default values. A default value is used if a tableau is
+        stored as named arrays, and no array has the name of the key. ``names`` contains the names of the
+        arrays."""
         return {}
 
     def coefficients(self) -> Places:

@@ -241,8 +241,8 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
                     raise TableauError(
                         f"for some quadratic Lie groups, exponent number {k + 1} is not in the Lie algebra",
                         where=f"{self.name}: exponents[{k + 1}]",
-                        expected="each product together with the product of the same factors in reverse "
-                        "order, such as A*B - B*A (minus for an even number of factors) or A*B*C + C*B*A "
-                        "(plus for an odd number of factors)",
+                        expected="each product P of an even number of factors only in P - R (A*B - B*A), "
+                        "and each product P of an odd number of factors only in P + R (A*B*C + C*B*A), where "
+                        "R is the product of the factors of P in reverse order",
                     )
         return method, None

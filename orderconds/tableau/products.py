@@ -155,8 +155,8 @@ class Magnus:
         return tuple(expand(combination, named, ring) for combination in self.exponents)
 
     def extents(self) -> tuple[tuple[int, int], ...]:
-        """Return a pair (m, n) for each exponent. The expanded exponent contains only products of m to n
-        factors A_i."""
+        """Return a pair (m, n) for each exponent. The expanded exponent is a sum of products of the matrices
+        A_i = h A(c_i h). Each product has at least m and at most n factors."""
         extent = extents(dict(self.elements))
         return tuple(extent_of_sum(combination, extent) for combination in self.exponents)
 

@@ -57,7 +57,8 @@ def properties(tableau: Tableau) -> dict[str, Verdict]:
 
 def low_storage(tableau: Tableau) -> Rewriting | None:
     """Rewrite a Runge-Kutta or commutator-free method as a low-storage scheme with two registers (2N). The
-    result contains the scheme, or the reason why there is no such scheme. Return None for all other methods.
+    result contains the scheme, or the reason why there is no such scheme. Return None if the method is
+    neither a Runge-Kutta method nor a commutator-free method.
 
     If the file has a table ``[proof]``, the answer can depend on random numbers
     (:mod:`orderconds.tableau.random_member`). The probability of a wrong answer is negligible.

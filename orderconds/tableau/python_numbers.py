@@ -22,8 +22,9 @@ EXPECTED = (
 
 
 SMALL = 1024
-"""A NumPy float of 16 or 32 bits becomes a rounded decimal if its denominator in lowest terms is larger than
-this number. Otherwise, the float is converted like a double."""
+"""The value of a NumPy float of 16 or 32 bits is a fraction in lowest terms. If the denominator of the
+fraction is larger than SMALL, the float becomes a rounded decimal. Otherwise, the float is converted like a
+double."""
 
 
 class _Listed(Protocol):
@@ -41,9 +42,10 @@ class _Narrow(Protocol):
 def coefficient(x: object, where: str) -> Coefficient:
     """Convert a number to a coefficient of a tableau file.
 
-    A NumPy float of 16 or 32 bits becomes a rounded decimal if its denominator in lowest terms is larger than
-    1024 (:data:`SMALL`). For doubles, see :func:`~orderconds.tableau.doubles.double_text`. Raises
-    TableauError for complex numbers, infinities, NaN, truth values and objects that are not numbers.
+    The value of a NumPy float of 16 or 32 bits is a fraction in lowest terms. If the denominator of the
+    fraction is larger than 1024 (:data:`SMALL`), the float becomes a rounded decimal. For other floats, see
+    :func:`~orderconds.tableau.doubles.double_text`. Raises TableauError for complex numbers, infinities, NaN,
+    truth values and objects that are not numbers.
 
     >>> from fractions import Fraction
     >>> [coefficient(x, "b[1]") for x in (1, Fraction(1, 3), "sqrt(3)/6", 0.25, 0.1)]

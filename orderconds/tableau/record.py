@@ -57,8 +57,8 @@ class Tableau:
     embedded: LowerOrder | None = None
     path: str | None = None
     proof: Proof | None = field(default=None, compare=False)
-    """The table ``[proof]`` of the file. It contains equations for the exact values of the rounded decimals
-    in the file."""
+    """The table ``[proof]`` of the file. It contains equations. The rounded decimals in the file approximate
+    an exact solution of these equations."""
     file: File | None = field(default=None, compare=False, repr=False)
     """The parsed tableau file, or None if the tableau is a copy with other coefficients."""
     doubles: bool = False

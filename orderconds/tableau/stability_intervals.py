@@ -48,16 +48,16 @@ FIRST_TRY = 64
 of the library need at most 18 subintervals. A multiple zero would need infinitely many."""
 
 MOST = 5000
-"""The limit on the number of subintervals after multiple zeros are removed. It bounds the work for zeros that
-are extremely close to each other."""
+"""The limit on the number of subintervals in the second search, for a polynomial without multiple zeros. The
+limit bounds the work for zeros that are extremely close to each other."""
 
 ACCURACY = 60
 """A zero is enclosed in an interval of relative length 2^-ACCURACY, less than the rounding of a double."""
 
 COARSE = 13
-"""If the coefficients are balls, an enclosure of a zero with the relative length 2^-ACCURACY can be
-impossible. In this case, an enclosure of relative length at most 2^-COARSE, about 10^-4, is accepted. A
-longer enclosure would not determine the four digits that the program prints."""
+"""If the coefficients are balls, each interval that is proved to enclose a zero can be longer than the
+relative length 2^-60 (:data:`ACCURACY`). In this case, an interval of relative length at most 2^-COARSE,
+about 10^-4, is accepted. A longer interval would not determine the four digits that the program prints."""
 
 
 class Intervals(Struct, frozen=True):
@@ -73,7 +73,8 @@ class Intervals(Struct, frozen=True):
 
 
 class Vanishing(Struct, frozen=True):
-    """Statements that coefficients of Q(-x)^2 - P(-x)^2 and of |Q(iy)|^2 - |P(iy)|^2 are zero.
+    """The coefficients of Q(-x)^2 - P(-x)^2 and of |Q(iy)|^2 - |P(iy)|^2 that are known to be zero. Here P/Q
+    is the stability function.
 
     ``real[k]`` is true if the coefficient of x^k is zero, and ``imaginary[k]`` is true if the coefficient of
     y^(2k) is zero. False means that nothing is known.
@@ -90,8 +91,8 @@ def stability_intervals(
 
     If the coefficients of P and Q are balls, the coefficients of the two polynomials Q(-x)^2 - P(-x)^2 and
     |Q(iy)|^2 - |P(iy)|^2 are also balls. If such a ball contains zero and other numbers, the ball does not
-    determine whether the coefficient is zero. Two arguments prove that coefficients of the two polynomials
-    are zero:
+    determine whether the coefficient is zero. The parameters ``order`` and ``vanishing`` state that some of
+    the coefficients of the two polynomials are zero:
 
     - ``order`` is a proved order of the method. From R(z) = e^z + O(z^(order + 1)) follows
       |R(iy)|^2 - 1 = O(y^(order + 1)).
@@ -144,7 +145,8 @@ def _axis_difference(P: Coefficients, Q: Coefficients, ring: Ring) -> list[Eleme
 
 
 def _with_zeros(E: list[Element], ring: Ring, *proofs: Sequence[bool]) -> list[Element]:
-    """Replace coefficients that are proved to be zero by the exact zero of the ring."""
+    """Return a copy of ``E`` with exact zeros. Entry k of the copy is the exact zero of the ring if
+    ``proof[k]`` is true for at least one ``proof`` in ``proofs``."""
     return [ring.zero if any(k < len(proof) and proof[k] for proof in proofs) else x for k, x in enumerate(E)]
 
 
@@ -164,9 +166,10 @@ def _length(E: Coefficients, ring: Ring, convert: Callable[[float], float]) -> f
 
 
 def _first_descent(E: Coefficients, ring: SignedRing) -> tuple[Fraction, Fraction] | None:
-    """Return an enclosure of the first point t >= 0 after which the polynomial E is negative.
+    """Return an enclosure of the smallest t >= 0 such that E is negative immediately to the right of t.
 
-    The result is None if there is no such point. Raises :class:`Undecided` for balls that are too wide.
+    E is a polynomial in t. The result is None if there is no such point. Raises :class:`Undecided` for balls
+    that are too wide.
     """
     signs = [ring.sign(x) for x in E]
     support = [k for k, sign in enumerate(signs) if sign != 0]
@@ -186,9 +189,10 @@ def _first_descent(E: Coefficients, ring: SignedRing) -> tuple[Fraction, Fractio
 
 
 def _odd_part(F: Polynomial, ring: SignedRing) -> Polynomial:
-    """Return the product of the factors of F with odd multiplicity, with a positive value at 0.
+    """Return the product of the factors that have odd multiplicity in F.
 
-    This product changes its sign at the same points as F, and all its zeros are simple.
+    Each factor occurs once in the product. The product changes its sign at the same points as F, and all
+    zeros of the product are simple. The sign of the product is chosen such that the value at 0 is positive.
     """
     result = [ring.one]
     for multiplicity, factor in enumerate(squarefree(F, ring), start=1):
@@ -202,8 +206,9 @@ def _first_zero(F: Polynomial, ring: SignedRing, limit: int) -> tuple[Fraction, 
 
     F(0) must be positive. The substitution x = t/(1 + t) maps the half-line t >= 0 to [0, 1). The interval
     [0, 1) is divided into subintervals. On each subinterval, let u be the variable that increases linearly
-    from 0 to 1. The product of F and a positive function is a polynomial in u, and Descartes' rule of signs
-    is applied to this polynomial. Raises :class:`Undecided` after ``limit`` subintervals.
+    from 0 to 1. Let n be the degree of F. Then (1 - x)^n F(t) is a polynomial in x, and therefore in u.
+    Descartes' rule of signs is applied to the polynomial in u. Raises :class:`Undecided` after ``limit``
+    subintervals.
     """
     backward = _shifted(F[::-1], -1, ring)[::-1]
     intervals = [(backward, Fraction(0), Fraction(1))]
@@ -251,9 +256,9 @@ def _variations(p: Coefficients, ring: SignedRing) -> int | None:
 
 
 def _refined(F: Polynomial, ring: SignedRing, a: Fraction, b: Fraction | None) -> tuple[Fraction, Fraction]:
-    """Return a short enclosure of the only sign change of F between a and b (None: infinity).
+    """Return a short enclosure of the only sign change of F between a and b.
 
-    F is positive before the sign change and negative after it.
+    The value None of b denotes infinity. F is positive before the sign change and negative after it.
     """
 
     def sign(t: Fraction) -> int | None:
@@ -266,7 +271,7 @@ def _refined(F: Polynomial, ring: SignedRing, a: Fraction, b: Fraction | None) -
     while b is None and sign(high) != -1:
         low, high = (high, 2 * high) if sign(high) == 1 else (low, 2 * high)
     while low == 0:
-        # The first bisections divide by 2 until the enclosure has a positive lower end.
+        # Halve ``high`` until F is positive at ``high / 2``. Then ``high / 2`` is the lower end.
         low, high = (high / 2, high) if (side := sign(high / 2)) == 1 else (low, high / 2)
         if side is None:
             raise Undecided

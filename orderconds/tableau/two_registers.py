@@ -10,9 +10,10 @@ leads from the last stage to the result of the step. In a 2N scheme, increment i
 sum_{j < i} A_{j+1} ... A_i F_j. The recognition computes B_i and A_i from the increments of a tableau:
 
 - B_i is the coefficient of F_i in increment i.
-- Let x be the coefficient of F_{i-1} and y the coefficient of F_i in an increment m >= i. In a 2N scheme, the
-  formula for K_m gives x = A_i y. Hence A_i = x/y for the first increment m >= i in which y is not zero. If y
-  is zero in all these increments, x must be zero, too, and A_i = 0 is chosen.
+- Let x be the coefficient of F_{i-1} and y the coefficient of F_i in an increment m >= i. In a 2N scheme,
+  increment m is B_m K_m. Therefore x = B_m A_i ... A_m and y = B_m A_{i+1} ... A_m, so x = A_i y. Hence
+  A_i = x/y for the first increment m >= i in which y is not zero. If y is zero in all these increments, x
+  must be zero, too, and A_i = 0 is chosen.
 
 The tableau is a 2N scheme if all its increments are equal to the increments B_i K_i.
 """
@@ -177,8 +178,8 @@ def _row_increments(method: RungeKutta, ring: Ring) -> list[Row] | str:
 
 
 def _path_increments(method: CommutatorFree, ring: Ring) -> list[Row] | str:
-    """Each stage of a commutator-free method is a product of exponentials, applied to the start value y0, and
-    so is the update. Increment i is the exponent of the exponential that leads from stage i to stage i + 1,
+    """In a commutator-free method, each stage and the update are products of exponentials, applied to the
+    start value y0. Increment i is the exponent of the exponential that leads from stage i to stage i + 1,
     or from the last stage to the update. Return all increments. Return an error text if the first stage is
     not y0, or if an increment would need more than one exponential."""
     *paths, update = (

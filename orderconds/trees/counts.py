@@ -1,4 +1,4 @@
-"""Numbers of trees from generating functions, independent of the enumeration of trees.
+"""Numbers of trees, computed from generating functions without enumerating the trees.
 
 The sequences are A000055, A000081, A000108, A000151 and A000238 of the OEIS. HLW denotes Hairer, Lubich and
 Wanner, *Geometric Numerical Integration*.

@@ -70,7 +70,8 @@ def density(tree: DirectedTree) -> int:
 
 
 def symmetry(tree: DirectedTree) -> int:
-    r"""Return sigma, the number of symmetries of a tree in canonical order.
+    r"""Return sigma, the number of symmetries of a tree. The branches of each vertex of the tree must be
+    sorted by their bytes, in descending order.
 
     >>> symmetry(b"\0\2\2"), symmetry(b"\0\3\2")
     (2, 1)
@@ -161,7 +162,8 @@ def rootings(tree: DirectedTree) -> Iterator[DirectedTree]:
 
 def moves(tree: DirectedTree) -> Iterator[tuple[DirectedTree, DirectedTree, DirectedTree]]:
     r"""Yield three trees (u, v, w) for each edge at the root. The removal of the edge gives two trees: u
-    contains the root, and v does not. The tree w is the given tree, but its root is the root of v.
+    contains the root, and v does not. To obtain w, move the root of ``tree`` along the edge to the
+    root of v.
 
     >>> list(moves(b"\0\2"))
     [(b'\x00', b'\x00', b'\x00\x03')]
@@ -173,8 +175,9 @@ def moves(tree: DirectedTree) -> Iterator[tuple[DirectedTree, DirectedTree, Dire
 
 
 def _simplest_roots(tree: DirectedTree) -> list[int]:
-    """Return the preorder indices of all roots that minimize (min(n_0, n_1), height, n_1). The numbers n_0
-    and n_1 are defined in :func:`representative`."""
+    """Try each vertex of the tree as the root. Return the preorder indices of the vertices for which
+    (min(n_0, n_1), height, n_1) is smallest. The numbers n_0 and n_1 are defined in
+    :func:`representative`."""
     edges, last, hats, below = len(tree) - 1, [0] * len(tree), [0] * len(tree), [0] * len(tree)
     parents, above = [0] * len(tree), [0] * len(tree)
     hats[0] = sum(level & 1 for level in tree[1:])

@@ -30,7 +30,7 @@ from orderconds.words.shuffle import Series, Word
 
 
 def iterated_integral(word: Word) -> Fraction:
-    """Return the coefficient of the word k_1 ... k_n in Y(1), where letter k denotes X_k.
+    """Return the coefficient of the word k_1 ... k_n, the product X_{k_n} ... X_{k_1}, in Y(1).
 
     Y solves Y' = A(t) Y with Y(0) = I, where A(t) = X_1 + t X_2 + t^2 X_3 + .... The coefficient is the
     integral of s_1^(k_1-1) ... s_n^(k_n-1) over 0 < s_1 < ... < s_n < 1. The integral equals the product of

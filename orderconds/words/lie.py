@@ -1,8 +1,8 @@
 """Free Lie elements and their coordinates in the Lyndon basis.
 
-The standard bracketing of a Lyndon word w expands to w plus a combination of greater words. Hence forward
-substitution gives the coordinates from the coefficients of Lyndon words (Reutenauer, Free Lie Algebras, Thm
-5.1).
+The standard bracketing of a Lyndon word w expands to w plus a combination of greater words. Therefore
+the coefficients of Lyndon words determine the coordinates, which are computed by forward substitution
+(Reutenauer, Free Lie Algebras, Thm 5.1).
 
 In this module, a word denotes the product of its letters in the written order. In the Magnus, Fer and Cayley
 expansions, a word denotes the product in reverse order. The function :func:`backwards` converts between these

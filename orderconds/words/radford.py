@@ -1,8 +1,8 @@
 """Words as polynomials in Lyndon words, with the shuffle product as multiplication (Radford 1979).
 
-Every word is a concatenation l_1^(i_1) ... l_k^(i_k) of powers of Lyndon words l_1 > ... > l_k. The shuffle
-product of i_1 copies of l_1, ..., and i_k copies of l_k, divided by i_1! ... i_k!, is the word plus a
-combination of smaller words (Reutenauer, Free Lie Algebras, Thm 6.1).
+Every word w is a concatenation l_1^(i_1) ... l_k^(i_k) of powers of Lyndon words l_1 > ... > l_k. Let S be
+the shuffle product of i_1 copies of l_1, ..., and i_k copies of l_k. Then S / (i_1! ... i_k!) is the sum of w
+and a combination of smaller words (Reutenauer, Free Lie Algebras, Thm 6.1).
 
 In a group-like series, the coefficient of a shuffle product is the product of the coefficients of the
 factors.

@@ -133,7 +133,7 @@ def test_a_proof_for_symplectic_methods_with_options_assumes_nonzero_weights() -
             "symmetric",
             "the update is y0 multiplied by at most 1 exponentials, "
             "and stage i is y0 multiplied by at most n_i exponentials, with n = 2, 1; "
-            f"stage i begins with k_i exponentials of the update, with k = 1, 0; {MIRRORED}",
+            f"stage i begins with the first k_i exponentials of the update, k = 1, 0; {MIRRORED}",
         ),
     ],
 )
