@@ -326,8 +326,8 @@ def _difference(memory, order, first, sign, sum):
     given order. Let u_0 be the latest stored solution, and let u_k be the
     solution k steps earlier. If first = 0 and sign = 1, compute sum = d_0 u_0 +
     d_1 u_1 + ... + d_order u_order, the backward difference. If first = 1 and
-    sign = -1, compute sum = -(d_1 u_0 + d_2 u_1 + ... + d_order u_(order-1)), the
-    extrapolated solution of the next step.
+    sign = -1, sum is the extrapolated solution of the next step: the backward
+    difference of sum, u_0, ..., u_(order-1) is zero.
     """
     sum_0 = 0.0
     sum_1 = 0.0
@@ -647,10 +647,9 @@ def _to_space(state, momentum):
 
 
 def _enter_body(state, moving, before):
-    """Copy the state to 'moving', and convert the momentum in 'moving' to the body
-    frame. Then convert this momentum back to the space frame, and write the
-    result into 'before'. At the end of the run, 'before' is needed to compute the
-    increase of the momentum.
+    """Copy the state to 'moving', and convert the momentum to the body frame. Then
+    convert this momentum back to the space frame, and write the result into
+    'before'.
     """
     _to_body(state, before)
     moving[0:9] = state[0:9]

@@ -21,8 +21,8 @@
  * operations: 201 add, 335 mul, 6 stumpff_12 a step
  *             2 add, 4 mul once in each run
  *             9 add, 21 mul, 1 stumpff_12 once in each run
- * stack:      at most 3008 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64; the stack of
- *             mathematical library functions is not included
+ * stack:      at most 3008 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64; mathematical
+ *             library functions use more
  * command:    orderconds emit fast_heavy_top --method splitting:blanes_moan_rkn4 --target c -o .
  * version:    orderconds 0.1.0
  *
@@ -421,7 +421,7 @@ static inline void fast_heavy_top_splitting_blanes_moan_rkn4_finish(double state
     state[11] = new_mu2;
 }
 
-/* Make one step, and apply all flows of the step. */
+/* Make one step. Defer no flow to a later step. */
 static int fast_heavy_top_splitting_blanes_moan_rkn4_complete_step(double state[static 12],
     double h)
 {

@@ -352,7 +352,7 @@ def _finish(state, elapsed_h):
 
 
 def _complete_step(state, h):
-    """Make one step, and apply all flows of the step."""
+    """Make one step. Defer no flow to a later step."""
     if not isfinite(h):
         return BAD_STEP
     if not all(map(isfinite, state)):
