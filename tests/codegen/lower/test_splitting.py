@@ -406,7 +406,10 @@ def test_a_flow_may_be_stated_where_it_is_not_recognised():
     ("flow", "message"),
     [
         # Summands that do not commute: the flow of p^2/2, then that of 3 p q.
-        (lambda q, p: ([(q + TAU * p) * exp(3 * TAU)], [p * exp(-3 * TAU)]), "the formula for q0 has the time derivative"),
+        (
+            lambda q, p: ([(q + TAU * p) * exp(3 * TAU)], [p * exp(-3 * TAU)]),
+            "the formula for q0 has the time derivative",
+        ),
         (lambda q, p: ([q + 1], [p]), "the formula for q0 has the value 2"),
     ],
 )
