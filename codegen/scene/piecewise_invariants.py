@@ -20,8 +20,9 @@ from codegen.errors import SceneError
 from codegen.ir.differentiate import gradient
 from codegen.ir.domain import ExprDomain
 from codegen.ir.expr import Expr
+from codegen.ir.normal_form import Monomial, NormalForms, TooLong
 from codegen.ir.rounding_domain import Sized
-from codegen.ir.selection import selects
+from codegen.ir.selection import SELECTING
 from codegen.ir.smoothness import Sides, argument_text, on_sides, selections
 from codegen.ir.table import PiecewisePolynomial
 from codegen.scene.orbit import Orbit
@@ -78,7 +79,7 @@ class _Check:
         nodes = selections((*self.velocity, root))
         for sides in self.combinations(nodes):
             formulas, margins = on_sides((*self.velocity, root), nodes, sides)
-            if any(map(_negative, margins)):
+            if _contradictory(margins):
                 continue  # No state has this combination of cases.
             if not self.constant(formulas[-1], formulas[:-1]):
                 raise self.error("changes along solutions in one of its cases")
@@ -125,20 +126,23 @@ class _Check:
             if not all(_joined(table, k) for k in range(len(table.knots))):
                 raise self.error("contains a table with jumps")
             return
-        if x.op == "call" and selects(x.payload):
-            return  # The operation ``x`` also has several cases, and ``run`` checks it separately.
+        formulas = [f for f in _formulas(x) if f.op != "const"]
+        if not formulas:
+            return  # ``x`` is always one of several constants. ``run`` checks the selections in ``x``.
         compared = False
         usual = [v[0] for point in self.orbit.points if (v := self.orbit.values((root,), point)) is not None]
-        for point in self.orbit.points:
-            sides = self.beside(x, point)
-            values = [self.orbit.values((root,), place) for place in sides]
-            pairs = [v[0] for v in values if v is not None]
-            if len(pairs) < 2:
+        for point, formula in product(self.orbit.points, formulas):
+            sides = self.beside(formula, point)
+            values = [self.orbit.values((root, x), place) for place in sides]
+            pairs = [v for v in values if v is not None]
+            # If ``x`` is a selection, it equals ``formula`` only in one case. In the other cases, ``x`` has
+            # the same sign at both points, and ``node`` does not change its case there.
+            if len(pairs) < 2 or (formula is not x and (pairs[0][1].value > 0) == (pairs[1][1].value > 0)):
                 continue
             compared = True
             # The two points are not equal, so the values differ slightly even if there is no jump. The
             # difference is small compared with the usual values of the invariant.
-            if not self.orbit.sized(pairs[0] - pairs[1], (*pairs, *usual)):
+            if not self.orbit.sized(pairs[0][0] - pairs[1][0], (pairs[0][0], pairs[1][0], *usual)):
                 raise self.error(f"jumps where {argument_text(node)} = 0")
         if not compared:
             raise self.error(f"cannot be tested for a jump where {argument_text(node)} = 0")
@@ -171,8 +175,44 @@ class _Check:
         )
 
 
-def _negative(margin: Expr) -> bool:
-    return margin.op == "const" and margin.payload.is_rational and margin.payload.fraction() < 0
+def _formulas(x: Expr) -> list[Expr]:
+    """Return the formulas of ``x`` in all cases of ``x``. If ``x`` is no selection, the list is [``x``].
+
+    >>> from codegen.ir.expr import Space
+    >>> a, b, c = map(Space().sym, "abc")
+    >>> [str(f) for f in _formulas(a.space.call("choose", a, b, a.space.call("fabs", c)))]
+    ['b', 'c']
+    """
+    if x.op != "call" or x.payload not in SELECTING:
+        return [x]
+    # The formulas c and -c of ``fabs(c)`` have the same zeros.
+    return [f for arg in (x.args[1:] or x.args) for f in _formulas(arg)]
+
+
+def _contradictory(margins: Sequence[Expr]) -> bool:
+    """Return True if one margin is a negative constant, or if a + c b <= 0 for two margins a, b and c > 0.
+
+    In both cases, no state exists at which all margins are positive. For example, the margins x - 2 and 1 - x
+    have the sum -1. If the result is False, such a state may exist.
+    """
+    known: list[tuple[dict[Monomial, Fraction], Fraction]] = []
+    for margin in margins:
+        try:
+            form = NormalForms(margin.space).polynomial(margin)
+        except TooLong:
+            continue
+        if all(c.is_rational for c in form.values()):
+            terms = {m: c.fraction() for m, c in form.items()}
+            known.append(({m: c for m, c in terms.items() if m}, terms.get((), Fraction(0))))
+    for k, (a, first) in enumerate(known):
+        if not a and first < 0:
+            return True
+        for b, second in known[:k]:
+            if a and a.keys() == b.keys():
+                c = -a[next(iter(a))] / b[next(iter(a))]
+                if c > 0 and all(a[m] == -c * b[m] for m in a) and first + c * second <= 0:
+                    return True
+    return False
 
 
 def _key(node: Expr) -> tuple[object, bool]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from sympy import Abs, And, Expr, Heaviside, Max, Piecewise, Rational, sign, sqrt, symbols
+from sympy import Abs, And, Expr, Heaviside, Max, Min, Piecewise, Rational, sign, sqrt, symbols
 
 from codegen.errors import SceneError
 from codegen.groups import LeftMultiplication, Rn
@@ -37,6 +37,9 @@ def scene(invariant: Expr, force: Expr = -x) -> Problem:
         x**2 + y**2 + Max(0, Rational(1, 10**6) - (x - 5) ** 2),
         table([0, 8, 9], [0, 0, 1], x, "linear"),
         (x**2 + y**2) * sign(x - 7) ** 2 + sign(x - 7),
+        # Max(x, y) = 0 where x = 0 and y < 0. There, Max(x, y) does not change its case.
+        Piecewise((x**2 + y**2, Max(x, y) > 0), (2, True)),
+        Piecewise((x**2 + y**2, Min(x, y + 2) > 0), (2, True)),
     ],
     ids=str,
 )
@@ -66,6 +69,7 @@ def test_the_energy_of_a_potential_with_cases_is_accepted() -> None:
     scene(y**2 / 2 + Piecewise((x**2, x > 0), (2 * x**2, True)), -Piecewise((2 * x, x > 0), (4 * x, True)))
     spring = Piecewise((x - 1, x > 1), (x + 1, x < -1), (0, True))
     scene(y**2 / 2 + Piecewise(((x - 1) ** 2, x > 1), ((x + 1) ** 2, x < -1), (0, True)) / 2, -spring)
+    scene(y**2 / 2 + Abs(Max(x, -1)), -Piecewise((1, x > 0), (-1, x > -1), (0, True)))
 
 
 def test_the_energy_of_a_hamiltonian_with_a_table_is_accepted() -> None:
