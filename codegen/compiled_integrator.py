@@ -192,17 +192,18 @@ class CompiledIntegrator(Integrator):
 class _Buffers:
     """The arguments for events in one call of the C function ``integrate``.
 
-    The C code stores events in arrays, and ends the run when the arrays are full. Therefore each call of the
-    event functions first moves the stored events from the arrays to the list ``events``.
+    The C code stores events in arrays. If the arrays become full, the C code ends the run. To prevent this,
+    the arrays are emptied each time the C code calls the event functions: the stored events are moved to the
+    list ``events``.
     """
 
     def __init__(self, ffi: Any, interface: Interface, values: EventValues) -> None:
         real, size = interface.format.c_type, interface.size
         self.size, self.null = size, ffi.NULL
         self.events: list[tuple[int, float, int, list[float]]] = []
-        # For n event functions, the arrays contain at most n events, because each call of the event functions
-        # empties the arrays. After storing these events, the C code ends the run unless n more events would
-        # fit. Therefore the arrays have 2 n entries.
+        # Let n be the number of event functions. Each call of these functions empties the arrays, and then
+        # the C code stores at most n events. The run continues only if n entries are still free. Therefore
+        # the arrays have 2 n entries.
         self.room = 2 * interface.events
 
         def write(t: float, state: Any, array: Any, data: Any) -> None:

@@ -66,7 +66,7 @@ def isotropic_part(B: Matrix) -> Fraction:
         for k in range(n):
             for j in range(n):
                 if len({i, j, k}) == 3 and B[j][k]:
-                    # The appended number a solves (B[i][i] - a) B[j][k] = B[i][j] B[i][k], so a 2 x 2 minor
-                    # of B - a I is zero.
+                    # For the appended number s, one minor of the matrix B - s I is zero, namely
+                    # (B[i][i] - s) B[j][k] - B[i][j] B[i][k] (rows i and j, columns i and k).
                     candidates.append(B[i][i] - B[i][j] * B[i][k] / B[j][k])
     return min(candidates, key=lambda a: (len(squares(shifted(B, a))), candidates.index(a)))

@@ -95,7 +95,7 @@ def _single(d: Domain, factor: Factor, z: S, signed: bool) -> tuple[S, S]:
 
 
 def _inverse_dexp(d: Domain, s: Fraction, z: S) -> tuple[S, S]:
-    """Return b and c with 1/dexp(s t) = 1 + b t + c t^2 for t = ad_x with t^3 = -z t.
+    """Return b and c in 1/dexp(s t) = 1 + b t + c t^2, where t^3 = -z t.
 
     The results are b = -s/2 and c = s^2 (c_2 - c_3)/(4 c_1). Here c_k is the value of the Stumpff function
     with index k at s^2 z/4.

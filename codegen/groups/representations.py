@@ -196,9 +196,8 @@ class AlgebraVectors(Representation):
     ) -> Pair[S]:
         """Apply ``word``, a product of functions of ad*_x, to p."""
         closed = group.require(ClosedFormSeries)
-        # Let e^2 = 0. The vector y + v e represents x = (y, v), and the vector q + m e represents p = (m, q).
-        # Because of (q + m e).(y + v e) = q.y + (m.y + q.v) e, the pairing <m, y> + <q, v> of p and x is the
-        # coefficient of e.
+        # The pairing of p = (m, q) and x = (y, v) is m.y + q.v. If e^2 = 0, this pairing is the coefficient
+        # of e in the product (q + m e).(y + v e). Therefore x is represented by y + v e, and p by q + m e.
         result = closed.series(DualDomain(d), word, True, duals(*x), duals(p[1], p[0]))
         return tuple(a.rate for a in result), tuple(a.real for a in result)
 

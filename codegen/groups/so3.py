@@ -286,7 +286,9 @@ class SO3(
         return matmul(g, defect, 3)
 
     def determined(self) -> tuple[tuple[int, ...], ...]:
-        """Return a tuple with the indices of the matrix entries for each row, and then for each column.
+        """Return six tuples of indices: one tuple for each row of the matrix, then one for each column.
+
+        Each tuple contains the indices of the three matrix entries in the row or column.
 
         If the entries of one row are unknown, the cross product of the other two rows gives these entries.
         The same is true for columns.

@@ -74,9 +74,9 @@ class Move:
         """
         m, k = self.core.rows, self.target.columns
         rows = 0 if self.start is None else self.start.rows
-        # The statement uses the formula for exp(B S B^T) B C in the docstring of this module, where S is
-        # ``core`` and G is ``gram``. The four terms of ``products`` are the numbers of multiplications for
-        # G S, for the norm of B S B^T, for G C, and for S phi(G S) G C.
+        # The statement uses the formula exp(B S B^T) B C = B (C + S phi(G S) G C), where S is ``core`` and G
+        # is ``gram``. The four terms of ``products`` are the numbers of multiplications for G S, for the norm
+        # of B S B^T, for G C, and for S phi(G S) G C.
         products = m**3 + m * (m + 1) // 2 + m * k * rows + (TERMS + 1) * m * m * k
         return {"add": products, "mul": products + TERMS * m * k}
 

@@ -146,8 +146,8 @@ class BallDomain:
             return tuple(x.mid() for x in sums)
         if isinstance(called, MatrixInverse):
             with precision(2 * self.bits):
-                # If the condition number is at most 2^``self.bits``, the inversion loses at most about
-                # ``self.bits`` of these bits, so about ``self.bits`` correct bits remain.
+                # Let b be ``self.bits``. If the condition number of the matrix is 2^b, the inverse loses
+                # about b bits. Therefore the inverse is computed with 2 b bits.
                 inverse = arb_mat(block_matrix(called.n, 0, numbers)).inv().tolist()
             return tuple(x.mid() for row in inverse for x in row)
         if isinstance(called, SpecialUnitaryExponential):

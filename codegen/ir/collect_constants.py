@@ -85,15 +85,15 @@ def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int,
         inside = [ranks[a.id] for a in node.args if a.id in ranks]
         root = _is_inverse(node) and node.args[1].op == "call" and node.args[1].payload == "sqrt"
         if root and node.id not in still:
-            # This node is y = 1/sqrt x, that is, y^1. A pair in ``ranks`` is (node number of y, exponent).
+            # A pair in ``ranks`` is (node number of y, exponent). This node is y, so the exponent is 1.
             ranks[node.id] = (node.id, 1)
         elif _is_power(node, inside):
             # Exponents are added in a product, and multiplied in a power of a power.
             exponent = sum(n for _, n in inside)
             ranks[node.id] = (inside[0][0], exponent * (node.payload or 1))
     # Each node in ``ranks`` has the form c y^n, where c is a number and y is a node 1/sqrt x. The dictionary
-    # ``ranks`` maps this node to the pair (node number of y, n). The set ``read`` contains the pairs of all
-    # nodes in ``ranks`` that are roots, or that are arguments of nodes outside ``ranks``.
+    # ``ranks`` maps this node to the pair (node number of y, n). The set ``read`` contains the pairs of those
+    # nodes in ``ranks`` that are elements of ``roots``, or arguments of nodes outside ``ranks``.
     read = {ranks[x.id] for x, by in used if x.id in ranks and (by is None or by.id not in ranks)}
     # If a pair in ``read`` belongs to y itself or to an even power of y, no power of y is rewritten as a
     # quotient. ``bases`` contains the node numbers of these nodes y.
@@ -102,11 +102,11 @@ def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int,
 
 
 def _is_power(node: Expr, inside: Sequence[tuple[int, int]]) -> bool:
-    """Return True if ``node`` is a product, a power or a negation, and a number times a power of a node y.
+    """Return True if ``node`` has the form c y^n with a number c, a node y = 1/sqrt x and an integer n > 0.
 
-    The node y must be 1/sqrt x for an expression x, and the exponent must be a positive integer. For each
-    argument of ``node`` that is a number times a power of such a node y, ``inside`` contains the pair (node
-    number of y, exponent). Different arguments may have different nodes y.
+    The operation of ``node`` must be a product, a power or a negation. For each argument of ``node`` that has
+    the form c y^n, ``inside`` contains the pair (node number of y, n). Different arguments may have different
+    nodes y.
     """
     # The first argument may be a number.
     whole = len(inside) == len(node.args) or node.args[0].op == "const"

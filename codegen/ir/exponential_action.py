@@ -102,7 +102,10 @@ class ExponentialAction(VectorFunction):
 
     @property
     def rows(self) -> tuple[tuple[tuple[int, int], ...], ...]:
-        """A tuple of pairs (k, j) for each row i of A. Argument k of the function exp(A) y is A_ij."""
+        """For each row i of A, the pairs (k, j) for which the entry A_ij is argument k of the function.
+
+        If all entries of a 2 x 2 matrix are arguments, the rows are ((0, 0), (1, 1)) and ((2, 0), (3, 1)).
+        """
         entries = list(enumerate(self.places))
         return tuple(
             tuple((k, place % self.n) for k, place in entries if place // self.n == i) for i in range(self.n)

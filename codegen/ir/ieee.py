@@ -20,8 +20,8 @@ UNDEFINED = ("acos", "asin", "cos", "sin", "sqrt", "tan")
 
 If a part of a formula is NaN, the value of the formula is usually NaN. There are two exceptions: the function
 ``choose`` can ignore a NaN, and a solver of implicit equations can return an error status in place of a NaN.
-Therefore a Python module in double precision calls helpers that return the NaN only if the module contains
-``choose`` or a solver.
+Therefore, if a Python module in double precision contains ``choose`` or a solver, the module calls helpers
+that return the NaN. Other modules in double precision call :mod:`math`, which raises an exception.
 """
 
 

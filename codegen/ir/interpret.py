@@ -231,7 +231,7 @@ def _correct(
         columns = []
         for j, u in enumerate(now):
             step = domain.increment(u)
-            # The difference quotient needs the images for the unknowns ``now`` with entry j plus ``step``.
+            # For the difference quotient, ``step`` is added to unknown j, and the images are computed again.
             moved = images([*now[:j], u + step, *now[j + 1 :]])
             # ``slopes`` is column j of g'(u).
             slopes = [(a - b) / step for a, b in zip(moved, values, strict=True)]

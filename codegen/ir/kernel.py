@@ -160,9 +160,10 @@ class Loop:
 
     @property
     def close(self) -> float:
-        """A loop for u = g(u) may end if the last change is at most ``close`` times the largest unknown.
+        """A factor in the stopping rule of a loop for u = g(u). The loop ends if both conditions hold:
 
-        A second condition is that the predicted change of a further sweep is at rounding level.
+        - The last change is at most ``close`` times the largest unknown.
+        - The predicted change of a further sweep is at rounding level.
         """
         # The last sweep computes the values in ``body`` before it changes the unknowns. The error of these
         # values is therefore about as large as the last change of the unknowns. If the code after the loop
@@ -314,8 +315,8 @@ class Expansion:
     of the kernel ``coefficients``. The other outputs are the coefficients of order 1.
 
     Coefficient n of a product of two series a and b contains the inner sum a_1 b_(n-1) + ... + a_(n-1) b_1.
-    Pass n of the loop first computes ``sums`` inner sums, one for each product of two series. Then the loop
-    executes the kernel ``following``, which has these outputs, in this order:
+    Pass n of the loop first computes this inner sum for each product (``sums`` is the number of products).
+    Then the loop executes the kernel ``following``, which has these outputs, in this order:
     - a_n for each product,
     - b_n for each product,
     - the Taylor coefficients of order n + 1.

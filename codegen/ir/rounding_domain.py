@@ -80,9 +80,10 @@ def _sized(x: Scalar) -> Sized:
 
 
 class RoundingDomain:
-    """The arithmetic of mpmath numbers with ``digits`` decimal digits and with sizes (:class:`Sized`).
+    """The arithmetic of pairs (value, size) of mpmath numbers with ``digits`` decimal digits.
 
-    The operations compute the same values and raise the same errors as the operations of
+    The rounding error of a value is about the size times the relative precision (:class:`Sized`). The
+    operations compute the same values and raise the same errors as the operations of
     :class:`codegen.ir.domain.PreciseDomain`.
     """
 
@@ -162,9 +163,9 @@ class RoundingDomain:
         return self.plain.settled([x.value for x in old], [x.value for x in new], previous)
 
     def _moved(self, along: Callable[[Scalar], tuple[Scalar, ...]], values: Sequence[Scalar]) -> list[Scalar]:
-        """Estimate the absolute values of the derivatives at 0 of the results of ``along``.
+        """Estimate |f'(0)| for each component f of the function ``along``.
 
-        ``values`` are the results of ``along`` at 0.
+        ``values`` contains f(0) for each component f.
         """
         # At the edge of its domain, such as 1 for acos, a function has values on one side only.
         for step in (self._shift, -self._shift):

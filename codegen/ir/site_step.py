@@ -225,8 +225,8 @@ class SiteStep:
     - ``dimension`` is the dimension of the lattice. ``offsets[k]`` is the position of neighbour k relative to
       a site.
     - ``sweeps`` are the loops over all sites. If ``flows`` is empty, the step executes the sweeps in the
-      order of the tuple. Otherwise, the step executes for each flow in ``flows`` the sweep with the index
-      :attr:`SiteFlow.sweep`. A sweep may belong to several flows.
+      order of the tuple. Otherwise, for each ``flow`` in ``flows``, the step executes ``sweeps[flow.sweep]``.
+      A sweep may belong to several flows.
     - ``size`` is the number of rows of the state.
     - ``rows`` is the number of rows of the workspace for intermediate results.
     - ``flows`` are the exact flows of a splitting method, in the order of execution. The first flow reads the

@@ -59,8 +59,8 @@ class Given(Series):
 
     def following(self, n: int) -> Coefficient:
         """Return None. All nonzero coefficients of a ``closed`` series are already in ``terms``."""
-        # A coefficient of a coordinate must be appended before it is read. Therefore the series of a
-        # coordinate is not ``closed``, and the assertion fails if the coefficient is missing.
+        # If ``closed`` is true, all missing coefficients are zero. For a coordinate, ``closed`` is false: a
+        # missing coefficient is unknown, and must be appended to ``terms`` before it is read.
         assert self.closed, f"coefficient {n} is unknown"
         return None
 

@@ -203,10 +203,10 @@ def determinant(x: Sequence[Any]) -> Any:
     a, b, c, d, e, f = x[:6]
     first, last = x[6], -x[7]
     middle = x[7] - x[6]
-    # The determinant contains the product H_12 H_23 H_31 and its complex conjugate.
+    # ``product`` is the real part of H_12 H_23 H_31.
     product = (b * f - a * e) * d + (a * f + b * e) * c
-    # Let d_j be the diagonal entries of H. The sum of all terms with diagonal entries is
-    # d_1 d_2 d_3 - d_1 |H_23|^2 - d_2 |H_13|^2 - d_3 |H_12|^2.
+    # With the diagonal entries d_j of H, the determinant of H is
+    # 2 ``product`` + d_1 d_2 d_3 - d_1 |H_23|^2 - d_2 |H_13|^2 - d_3 |H_12|^2.
     diagonal = first * (middle * last - (e * e + f * f)) - middle * (c * c + d * d)
     return (product + product) + (diagonal - last * (a * a + b * b))
 

@@ -53,8 +53,9 @@ class _Verifier:
             # The embedded solution must have the same kind as the input ``y``.
             if inputs.get("y" if name == EMBEDDED else name) != var.kind:
                 raise IllFormed(
-                    f"{self.program.name}: the output {name} requires an input of kind {var.kind}: for the "
-                    "embedded solution the input y, for every other output the input of the same name"
+                    f"{self.program.name}: the output {name} requires an input of kind {var.kind}; "
+                    "this input must have the name of the output, or the name y if the output is the "
+                    "embedded solution"
                 )
 
     def define(self, var: Var, at: str | Assign) -> None:

@@ -337,8 +337,9 @@ class _Builder:
 
         Smaller matrices are extended by zeros to the size of the largest matrix.
         """
-        # A smaller matrix S belongs to the first columns of the basis B. ``self.sum`` extends S by zeros for
-        # the other columns of B, so the product B S B^T does not change.
+        # A matrix S with m rows represents B S B^T, where B consists of the first m columns of the basis. If
+        # m is less than ``size``, ``self.sum`` extends S by zeros. The zeros are coefficients of the other
+        # columns of the basis, so the represented matrix does not change.
         size = max([m.rows for _, m in terms], default=self.k)
         return self.sum(Matrix(name, size, size), *terms)
 

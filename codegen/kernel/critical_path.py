@@ -198,9 +198,9 @@ class _Chains:
         if node.op == "mul":
             a, b = node.args
             # ``self.level`` contains, for each node, the largest number of slow operations in a chain that
-            # ends at the node. The argument with the smaller number becomes ``a``. If this number is below
-            # the bound ``level``, ``a`` is known early. Then ``b`` is expanded, and each term of the sum is
-            # multiplied by ``a``.
+            # ends at the node. The argument with the smaller number becomes ``a``. If ``self.level[a.id]`` is
+            # less than the parameter ``level``, ``a`` is known early. Then ``b`` is expanded, and each term
+            # of the sum is multiplied by ``a``.
             if self.level[b.id] < self.level[a.id]:
                 a, b = b, a
             if self.level[a.id] < level:
@@ -209,8 +209,8 @@ class _Chains:
                 return _scaled(
                     self._sum(b, level), 1, *((factor, one) if self.fixed[a.id] else (one, factor))
                 )
-        # ``node`` is not expanded, so the sum has only one product. The key of this product is the expression
-        # that replaces ``node``, and all other factors are 1.
+        # ``node`` is not expanded. The result is the single product s k v c with s = k = v = 1, where c is
+        # the expression that replaces ``node`` (:data:`Sum`).
         return {self.new[node.id]: (1, one, one)}
 
     def _joined(self, a: tuple[int, Expr, Expr], b: tuple[int, Expr, Expr]) -> tuple[int, Expr, Expr]:

@@ -315,7 +315,8 @@ def _needed(var: Var, statements: dict[Var, Assign]) -> list[Var]:
 
 def _difference(x: _Value, y: _Value) -> tuple[_Value, _Value]:
     totals = [_total(x), _total(y)]
-    # A sum below LARGE_SUM in absolute value counts as zero. In this case, x and y are returned unchanged.
+    # ``totals`` are the sums of the coefficients of x and of y. If both sums are at least LARGE_SUM in
+    # absolute value, a multiple of y is subtracted from x. Otherwise x and y are returned unchanged.
     if min(abs(float(s)) for s in totals) < LARGE_SUM:
         return x, y
     # Because [y, y] = 0, the brackets [x - c y, y] and [x, y] are equal.

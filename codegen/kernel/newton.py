@@ -81,8 +81,8 @@ def leading_terms(images: Sequence[Expr]) -> list[Expr]:
     h = space.sym("h")
     # ``slopes`` are the derivatives of ``images`` with respect to h.
     slopes = [row[0] for row in jacobian(images, ["h"])]
-    # One call inserts h = 0 in both lists, so that subexpressions of both ``images`` and ``slopes`` are
-    # evaluated only once.
+    # One call inserts h = 0 in both lists. Therefore a subexpression that occurs in ``images`` and also in
+    # ``slopes`` is evaluated only once.
     values = _at_zero(space, [*images, *slopes])
     # Higher powers of h are dropped, because Newton's method needs only an approximate matrix.
     n = len(images)

@@ -23,10 +23,10 @@ from codegen.kernel.schedule import (
 )
 
 STEP = "step"
-"""In dictionaries of operation counts, the key for the operations outside loops."""
+"""In dictionaries of operation counts, this key denotes the operations outside loops."""
 
 START = "start"
-"""In dictionaries of operation counts, the key for the operations that compute the starting values of
+"""In dictionaries of operation counts, this key denotes the operations that compute the starting values of
 implicit equations in the first step of a run.
 """
 

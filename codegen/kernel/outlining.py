@@ -86,8 +86,9 @@ class Outline:
             if not chosen:
                 return None
             rewritten_roots, shapes = self._called(roots, chosen)
-            # If a simplification such as x - x = 0 removed an input of a tree, ``roots`` do not contain this
-            # input, and emitted code does not compute it. Therefore the tree is not replaced by a call.
+            # The call for a tree reads all inputs of the tree. An input x may be absent from ``roots``,
+            # because these expressions are simplified (for example, x - x to 0). Emitted code does not
+            # compute x in this case, so the tree is not replaced by a call.
             added = _symbols(rewritten_roots) - _symbols(roots)
             if added:
                 called = [tree for alike in chosen.values() for tree in alike]

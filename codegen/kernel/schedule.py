@@ -233,8 +233,8 @@ def _alone(function: Function) -> Kernel:
 def _outside(statement: Let | Start | Loop) -> Sequence[Expr]:
     if isinstance(statement, Let):
         return [statement.value]
-    # For a :class:`Loop`, the result contains the starting values of the unknowns. For a :class:`Start`, the
-    # result is empty: some steps skip a :class:`Start`, so its expressions have a scope of their own.
+    # The result contains the expressions that every step computes outside loops. For a :class:`Loop`, these
+    # are the starting values of the unknowns. A :class:`Start` has none, because some steps skip it.
     return statement.starts if isinstance(statement, Loop) else []
 
 
