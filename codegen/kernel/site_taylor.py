@@ -261,9 +261,9 @@ class TaylorSweeps:
         free: list[int] = []
         listed = []
         for n, (roots, own) in enumerate(zip(ends, stores, strict=True)):
-            # ``rows`` contains the rows of the stored expressions. In these rows, a sweep reads only the
-            # entry of the current site, and stores the values of this site afterwards. Therefore the last
-            # sweep that reads a row may also overwrite this row.
+            # ``rows`` contains the rows of the stored expressions, with one entry for each site. At a site, a
+            # sweep first reads entries of this site only, and then writes new entries of this site. Therefore
+            # the last sweep that reads a row may also overwrite this row.
             free += [row.number for i, row in rows.items() if stored.last[i] == n]
             kept = [node for i, node in stored.nodes.items() if stored.writer[i] == n]
             # The values in ``names`` were stored by earlier sweeps.

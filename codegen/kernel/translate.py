@@ -208,14 +208,15 @@ class _Translation:
             entered = residuals
         elif solver != FIXED_POINT:
             entered = with_matrix(entered, solver)
-            # The last iteration computes g(u) for the old value of u, and then a new value of u. The new u is
-            # more accurate than g(u). Therefore later statements read u in place of g(u).
+            # An iteration of Newton's method computes g(u), a correction d from g(u) - u, and the new value
+            # u + d of the unknown. In the last iteration, u + d is more accurate than g(u). Therefore later
+            # statements read the unknown in place of g(u).
             solved = Solved(entered)
             for var in self.env:
                 self.env[var] = solved.value(self.env[var])
                 self.remember(var)
-        # The new block is added only now, because ``enter`` above must find ``blocks`` without the new block:
-        # the length of ``blocks`` is then the index of the new block (:meth:`run`).
+        # The call of ``self.enter`` uses the length of ``self.blocks`` as the index of the new block.
+        # Therefore the new block is added after this call.
         self.blocks.append(entered)
 
     def enter(self, block: Solve) -> Block:
@@ -287,8 +288,8 @@ class _Translation:
         errors = tuple(x - y for x, y in zip(outputs, lower, strict=True)) if lower else ()
         # ``ordered`` is called only once, so outputs and error estimates can share assignments.
         body, ends, outlined = self.ordered((*outputs, *errors))
-        # LEAD is the duration of the last flow of a splitting step, which may include the first flow of the
-        # next step. ELAPSED is the duration of a run.
+        # LEAD is the duration of the last flow of a splitting step. If this flow and the first flow of the
+        # next step are joined, LEAD is the sum of the two durations. ELAPSED is the duration of a run.
         durations = [v.name for v in self.program.inputs if v.name in (LEAD, ELAPSED)]
         kernel = Kernel(
             *(self.program.name, fields, (TIME, "h", *self.scene.runtime, *durations)),

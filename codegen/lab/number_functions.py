@@ -12,7 +12,7 @@ from codegen.ir.table import PiecewisePolynomial
 from codegen.lab.number_types import Scalar
 
 TABLES = "table"
-"""In a dictionary :data:`Functions`, the key of the entry for piecewise polynomials."""
+"""The key for piecewise polynomials in a dictionary of the type :data:`Functions`."""
 
 Functions = Mapping[str, Scalar]
 """A dictionary that maps names such as ``sin`` to functions of numbers or arrays.

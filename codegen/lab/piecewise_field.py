@@ -254,7 +254,7 @@ class Sided:
         sides, smooth = self.fields.beyond(self.sides, place, now)
         if sides == self.sides:
             raise self._unknown(
-                now, "the program cannot decide which formula of an operation applies, as x or -x for abs(x)"
+                now, "the program cannot decide which formula applies, for example x or -x for abs(x)"
             )
         self.sides = sides
         self.kinks.append(smooth)

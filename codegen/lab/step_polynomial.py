@@ -134,8 +134,8 @@ class StepPolynomial:
         - ``length`` is the length of the step.
 
         Return None if all functions are non-negative from t to t + ``length``. Otherwise, return two numbers
-        (a, b). From t to t + a, all functions are non-negative. At t + b, a function is negative. From t + a
-        to t + b, each function is non-negative, or monotone and therefore zero at most once.
+        (a, b). From t to t + a, all functions are non-negative. At t + b, a function is negative. A function
+        that becomes negative between t + a and t + b is monotone there, so it changes its sign only once.
         Raises :class:`Undecided` if the signs cannot be decided.
         """
         signs = _Signs(self, values, series, length)
@@ -173,8 +173,8 @@ class _Signs:
 
         All functions must be non-negative at t + a. The result is one of the following:
 
-        - True: at least one of the functions is negative at t + b, and each function is non-negative or
-          monotone from t + a to t + b.
+        - True: at least one function is negative at t + b. A function that becomes negative on the
+          subinterval is monotone on the subinterval, so it changes its sign only once.
         - False: all functions are non-negative from t + a to t + b.
         - None: neither is proved, so the caller must bisect the subinterval.
 
@@ -201,7 +201,8 @@ class _Signs:
             if ends[k] < -self.limits[k]:
                 if self.sizes[k] < NEGLIGIBLE:
                     raise Undecided(
-                        "x in an operation such as abs(x) is too close to the value where the formula changes"
+                        "x in an operation such as abs(x) is too close to a value at which the operation "
+                        "changes its formula (0 for abs(x))"
                     )
                 negative = True
         return negative
@@ -215,9 +216,10 @@ class _Signs:
         return [k for k, x in enumerate(values) if not x >= -self.limits[k]]
 
     def _expansions(self, state: tuple[arb_poly, ...], tau: Scalar) -> list[list[arb]]:
-        """Return the power series in x of each function at the time t + ``tau`` + x, up to degree DEGREE.
+        """Return the power series of the functions that ``self.series`` computes, up to degree DEGREE.
 
-        ``self.series`` computes the functions. The polynomials ``state`` in x give the state at this time.
+        The power series are in powers of x at the time t + ``tau`` + x, where the step starts at the time t.
+        The polynomials ``state`` in x give the state at the time t + ``tau`` + x.
         """
         with _truncated(DEGREE + 1):
             try:

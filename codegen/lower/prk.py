@@ -107,8 +107,8 @@ class PartitionedLowering(Lowering):
                     v, _ = build.hamilton(f"v{number}", "unused", q, P, *time)
                 # If the force does not depend on momenta, its values at ``mu`` and ``P`` are equal.
                 if not by_momentum:
-                    # The force at ``mu`` replaces the equal force at ``P``, because ``P`` depends on unknowns
-                    # and ``mu`` is known at the start of the step.
+                    # This force does not depend on the momentum, so ``mu`` can replace ``P``. With ``mu``,
+                    # the force depends on fewer unknowns.
                     _, f = build.hamilton("unused", f"f{number}", Q, mu, *time)
                 velocities.append(v)
                 forces.append(f)

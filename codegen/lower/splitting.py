@@ -63,8 +63,8 @@ class SplittingLowering(FlowLowering):
             where=parts.where,
             expected="a tableau with as many parts as the scene, or a tableau with two parts if the scene "
             "has more than two parts",
-            hint="if the exact flow of a part is unknown, count each summand of this part as one part; the "
-            f"exact flow is unknown for: {', '.join(inexact)}"
+            hint="if the exact flow of a part is unknown, the program first replaces the part by its "
+            f"summands, and then counts the parts; replaced parts: {', '.join(inexact)}"
             if inexact
             else "",
         )

@@ -12,9 +12,9 @@ The group elements E_i^J and e^J are products of J exponentials:
     e^J = exp(Y_J) e^{J-1},        e^0 = 1.
 
 E_i and e are the products of all factors. The position of stage i is Q_i = E_i q0. With the Lagrangian l, the
-discrete Lagrangian is h sum_i b_i l(Q_i, xi_i), where b_i = sum_J beta_J^i. The velocity and the force of
-stage j are (xi_j, n_j) = f(Q_j, M_j). With nu_j = Ad*_{E_j} n_j and mubar = mu0 + h sum_j b_j nu_j,
-Hamilton's equations for the discrete Lagrangian are
+discrete Lagrangian is h sum_i b_i l(Q_i, xi_i), where b_i = sum_J beta_J^i. The momentum of stage j is M_j.
+The velocity and the force of stage j are (xi_j, n_j) = f(Q_j, M_j). With nu_j = Ad*_{E_j} n_j and
+mubar = mu0 + h sum_j b_j nu_j, Hamilton's equations for the discrete Lagrangian are
 
     b_i M_i = sum_J beta_J^i dexp*_{-Y_J} Ad*_{(e^{J-1})^-1} mubar
               - h sum_j sum_J b_j alpha_jJ^i dexp*_{-X_jJ} Ad*_{(E_j^{J-1})^-1} nu_j,

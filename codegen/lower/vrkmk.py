@@ -105,8 +105,9 @@ class _Step(ExpandedStep):
         build, A, b, times_h = self.build, self.A, self.b, self.stages.times_h
         terms = [(Coefficient(b[i]), build.dual_dexp("L", self.minus, self.mu))]
         for j in range(self.s):
-            # On an abelian group, the terms with n_j have the sum h b_i (b_j - b_j a_ji/b_i) n_j. The factor
-            # in parentheses is the coefficient ahat_ij of a symplectic partitioned Runge-Kutta method.
+            # Let n_j be the force of stage j. On an abelian group, the next two terms are h b_i b_j n_j and
+            # -h a_ji b_j n_j. Their sum is h b_i ahat_ij n_j, where ahat_ij = b_j - b_j a_ji/b_i is the
+            # coefficient of a symplectic partitioned Runge-Kutta method.
             terms.append((times_h(b[i] * b[j]), build.dual_dexp("L", self.minus, self.nu[j])))
             direct = build.dual_dexp(f"d{j + 1}", self.X[j], self.forces[j])
             terms.append((times_h(-(A[j][i] * b[j])), direct))

@@ -89,7 +89,7 @@ class Optimiser:
         for each in body_frame_passes(self.scene):
             self._run(each)
         outcome = self.program, tuple(self.reports)
-        # :meth:`plain` returns these attributes, so the values before the body-frame passes are restored.
+        # A later call of :meth:`plain` must return the program as it was before the body-frame passes.
         self.program, self.reports = plain, reports
         return outcome
 

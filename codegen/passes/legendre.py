@@ -75,8 +75,8 @@ def run(program: Program, scene: Problem) -> Program:
         for route in paths:
             block = _turned(block, route, build)
         image = dict(zip(block.unknowns, block.images, strict=True))
-        # An unknown u has the equation u = g(u). ``image`` maps u to the variable for g(u). If u has a path,
-        # later statements read u in place of this variable, because u = g(u) at the solution.
+        # The equation of an unknown u is u = g(u), and ``image[u]`` is the variable for g(u). After the block
+        # is solved, u and g(u) are equal. Therefore later statements can read u instead of ``image[u]``.
         names |= {image[p.unknown]: p.unknown for p in paths}
         body.append(block)
     outputs = tuple((name, names.get(var, var)) for name, var in program.outputs)
@@ -160,8 +160,9 @@ def _values(build: Builder, route: Path) -> tuple[dict[Var, Var], Var]:
     The maps of ``route`` compute ``route.unknown`` from ``route.base``. The new assignments apply the
     inverses of these maps, in reverse order.
 
-    The first result maps each variable v of ``route`` to a variable w. The new assignments compute w from
-    ``route.unknown``, and w = v at the solution. The second result is w for v = ``route.base``.
+    The first result maps each variable of ``route`` to its copy: a variable that the new assignments compute
+    from ``route.unknown``. If the unknown satisfies its equation, each variable is equal to its copy. The
+    second result is the copy of ``route.base``.
     """
     replaced: dict[Var, Var] = {}
     value = route.unknown
@@ -187,8 +188,8 @@ def _residual(block: Solve, route: Path, build: Builder) -> Var:
     replaced, computed = _values(build, route)
     given = route.base
     if _function_of_one(block, route):
-        # ``given`` is the momentum P (:class:`Path`) in place of ``route.base``. To compute P from the
-        # unknown, no map in ``route.inward`` is inverted.
+        # In this case, m and n are values of the momentum P of the stage. Values of ``route.base`` are not
+        # compared, because n would then need the inverse of the map in ``route.inward``.
         given = route.velocity.args[1]
     elif route.inward and route.inward[0].terms:
         given = route.inward[0].targets[0]

@@ -98,7 +98,7 @@ class Numeric(Operation):
 
     @property
     def name(self) -> str:
-        """The name of the slower operation in whose place the Python function is called."""
+        """The name of the operation that this object replaces."""
         return self.label
 
     def evaluate(self, problem: Evaluated, domain: Domain, args: Values) -> Values:

@@ -166,8 +166,8 @@ class Bar:
     - ``seconds``: the largest accepted CPU time in seconds.
     - ``least``: triples (family, x, e) for :meth:`too_high`. Each triple describes the methods of the family
       that have the order p + 1 or p + 2, where p is the order of the recipe. If x is True, only explicit
-      methods count. If x is False, only implicit methods count. The least error that is predicted for these
-      methods with the CPU time ``seconds`` is e. The family '' represents all families.
+      methods count. If x is False, only implicit methods count. The number e is the smallest predicted error
+      of these methods in a run of ``seconds`` seconds of CPU time. The family '' represents all families.
     - ``steps``: the number of time steps in the first test run of the recipe. The step size is constant in
       this run.
     - ``explicit``: True if only explicit methods are accepted.
@@ -187,12 +187,12 @@ class Bar:
 
         - ``step_seconds``, the predicted CPU time of one step, exceeds ``self.seconds``.
         - The method is implicit, and ``self.explicit`` is True.
-        - Even methods of the orders p + 1 and p + 2 are too inaccurate. Let e be the least error that is
-          predicted for these methods with the CPU time ``self.seconds``. A method of order p is assumed to
-          have an error of at least e/FAR (:data:`FAR`), and is excluded if e/FAR exceeds ``self.error``. The
-          number e comes from the triple (``family``, ``explicit``, e) in ``self.least``. If this triple is
-          missing, the triple ('', ``explicit``, e) for all families is used. If that triple is missing, too,
-          this case does not apply.
+        - The methods of the higher orders p + 1 and p + 2 are too inaccurate. Let e be the smallest predicted
+          error of these methods in a run of ``self.seconds`` seconds of CPU time. A method of order p is
+          assumed to have an error of at least e/FAR (:data:`FAR`), and is excluded if e/FAR exceeds
+          ``self.error``. The number e comes from the triple (``family``, ``explicit``, e) in ``self.least``.
+          If this triple is missing, the triple ('', ``explicit``, e) for all families is used. If that triple
+          is missing, too, this case does not apply.
         """
         if step_seconds > self.seconds or (self.explicit and not explicit):
             return True

@@ -220,8 +220,8 @@ class Racer:
         """Increase the accuracy of the runs until two consecutive runs have small enough errors.
 
         The control of a run is the number of equal steps, or the exponent k of the tolerance 10^-k. If two
-        consecutive runs have small enough errors, return the control of the first of these runs, and True.
-        Otherwise, the second result is False.
+        consecutive runs have small enough errors, return (c, True), where c is the control of the first of
+        these runs. Otherwise, return (c, False) with a number c that has no meaning.
         """
         control, seen = 1.0, [self.error(1.0)]
         while control <= (FINEST if self.entry.recipe.adaptive else MOST_STEPS):

@@ -63,8 +63,8 @@ class Recommendation:
 
     - ``places``: for each successful recipe, the fastest run with at most the required error. Fast runs
       come first.
-    - ``best``: None if ``places`` is not empty. Otherwise the most accurate run, or None if no run meets the
-      requirements.
+    - ``best``: None if ``places`` is not empty. Otherwise, the most accurate run of a recipe that meets
+      ``request.needs`` and ``request.stack``, or None if no measured recipe meets them.
     - ``predicted``: the number of predicted recipes.
     - ``raced``: the number of measured recipes.
     - ``seconds``: the time of the search in seconds.

@@ -103,7 +103,8 @@ TINY = 1e-24
 
 A deviation is the difference between a conserved quantity and its exact value. The deviations in a run are
 divided into blocks, and the mean of each block is computed. Let d be the largest absolute deviation in the
-run. The differences between the means count as rounding errors if their variance is below TINY times d^2.
+run, and let V be the variance of the differences between consecutive means. If V is below TINY times d^2, the
+differences count as rounding errors.
 """
 
 FINE, NEAR, FAR = 100, 5, 20

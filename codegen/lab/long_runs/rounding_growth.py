@@ -34,8 +34,10 @@ from codegen.lower import problem_for
 from codegen.printers import DEFAULT
 
 STARTS = 16
+"""The number of runs. The runs have different initial states on one trajectory."""
+
 APART = 37
-"""STARTS is the number of runs. The initial states of the runs lie on one trajectory, APART steps apart."""
+"""The number of steps on this trajectory between the initial states of consecutive runs."""
 
 TIMES = 9
 """The number of measurements in a run. The number of steps doubles from one measurement to the next."""

@@ -41,9 +41,9 @@ FEWEST = 4
 SPREAD = CLEAR * 2.0**-52
 """Errors of the coefficients up to SPREAD are negligible.
 
-In a run with doubles, the effect of coefficient errors of this size is at most about CLEAR times the effect
-of rounding. A run is used to measure the order only if its error is larger than CLEAR times the effect of
-rounding.
+Let r be the rounding error of a run with doubles. A run is used to measure the order only if its error is
+larger than CLEAR r. Coefficient errors up to SPREAD change the final state of the run by less than about
+CLEAR r.
 """
 
 

@@ -2,10 +2,9 @@
 
 An element x of the Lie algebra acts on a point y, and x.y is the resulting tangent vector. The vector field
 that maps y to x.y is called a frozen field. The derivative of a function g along a frozen field is the
-coefficient of eps in g(y + eps x.y), where eps^2 = 0. For the derivative along k frozen fields x_1, ..., x_k,
-the point y is replaced by y + eps_j x_j.y for j = 1, ..., k, one after the other. The derivative is the
-coefficient of the product eps_1 ... eps_k in the value of g at the last point. The scene must be polynomial
-in its coordinates.
+coefficient of eps in g(y + eps x.y), where eps^2 = 0. For the derivative along k frozen fields, given by the
+elements x_1, ..., x_k, let y_0 = y and y_j = y_{j-1} + eps_j x_j.y_{j-1} for j = 1, ..., k. The derivative is
+the coefficient of the product eps_1 ... eps_k in g(y_k). The scene must be polynomial in its coordinates.
 """
 
 from __future__ import annotations

@@ -110,7 +110,7 @@ class Refinement:
         If there is no slope, the verdict is ``undecided``. If the slopes have settled (:attr:`settled`), the
         first rule that applies gives the verdict:
 
-        - ``fails`` if s is below ``stated`` and s > :data:`ZERO` (rounded coefficients can cause s <= ZERO),
+        - ``fails`` if s is above :data:`ZERO` and below ``stated``,
         - ``holds`` if p equals ``stated``,
         - ``holds`` if s equals ``stated`` and p is above ``stated``,
         - ``undecided`` if s equals ``stated`` and p is below ``stated``,

@@ -126,12 +126,12 @@ def _proved_order(tableau: Tableau) -> int:
 
 
 def _identities(tableau: Tableau) -> Vanishing:
-    """Return which coefficients of |Q|^2 - |P|^2 remain zero if other numbers replace the rounded decimals.
+    """Return which coefficients of |Q|^2 - |P|^2 are zero, where P/Q is the stability function.
 
-    P/Q is the stability function of the tableau, and the rounded decimals are numbers in the tableau. On the
-    negative real axis and on the imaginary axis, |Q|^2 - |P|^2 is a polynomial (:class:`Vanishing`). The
-    function replaces the decimals by random numbers. The probability of a wrong answer is negligible
-    (:mod:`orderconds.tableau.random_member`).
+    On the negative real axis and on the imaginary axis, |Q|^2 - |P|^2 is a polynomial (:class:`Vanishing`).
+    The tableau can contain rounded decimals. A coefficient counts as zero only if it is zero for all values
+    of these decimals. To test this, the function replaces the decimals by random numbers. The probability of
+    a wrong answer is negligible (:mod:`orderconds.tableau.random_member`).
     """
     if tableau.proof is None:
         return Vanishing()
