@@ -47,8 +47,9 @@ def _without(block: Solve, unknown: Var) -> Solve | None:
     The unknown is replaced by its image, the right-hand side of its equation.
     """
     image = dict(zip(block.unknowns, block.images, strict=True))[unknown]
-    # A block needs at least one unknown. ``image`` replaces ``unknown``. If ``image`` were an unknown, too, a
-    # later call of this function could remove ``image``.
+    # A block needs at least one unknown. The variable ``image`` must remain in the program, because the
+    # program uses ``image`` in place of ``unknown``. An unknown may be removed later, so ``image`` must not
+    # be an unknown.
     if len(block.unknowns) == 1 or image in block.unknowns:
         return None
 

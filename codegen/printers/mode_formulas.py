@@ -63,7 +63,7 @@ class ModeFormulas:
         """
         scale = self.style.constant(factor.scale)
         argument = "z" if factor.scale.is_one else f"{scale} * z"
-        # The function POWER returns its argument unchanged, so the text contains no function call.
+        # A factor with the name POWER is the number ``scale`` * z itself, so no function is called.
         return argument if factor.function == POWER else call(factor.function, argument)
 
     def table(self, table: Table) -> str:

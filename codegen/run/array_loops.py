@@ -258,8 +258,8 @@ class ArrayLoops:
     def applied_full(self, a: Apply) -> Iterator[Statement]:
         """Yield the loops for the product C M of a full constant matrix C and a variable matrix M."""
         c = a.constant
-        # If ``a.transposed`` is True, C is the transpose of ``c``, so the row and the column of an entry are
-        # exchanged.
+        # i and j are the row and the column of an entry of ``c``. If ``a.transposed`` is True, the transpose
+        # of ``c`` is multiplied by M, so i and j are exchanged.
         i, j = (_TERM, _ROW) if a.transposed else (_ROW, _TERM)
         before, entry = constant_entry(c.full, c.name, i, j, c.columns * i + j)
 
@@ -361,7 +361,7 @@ def _rounded(entries: Sequence[Number], precision: Precision) -> tuple[float, ..
 
 
 def _in_groups(columns: int, group: Callable[[Term | None, int], Iterator[Statement]]) -> Iterator[Statement]:
-    """Yield the statements that compute a matrix group by group. A group consists of adjacent columns.
+    """Yield the statements that compute a matrix in groups of adjacent columns.
 
     The matrix has ``columns`` columns. The function ``group`` yields the statements for one group. Only the
     last group may have fewer than :data:`GROUP` columns.

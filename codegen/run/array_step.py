@@ -197,9 +197,9 @@ class _Exponential:
         about = (
             "Multiply an intermediate state X of a step by the matrix exponential exp(B S B^T). All these "
             "states have the form X = X_0 + B D with the same B, where X_0 is the initial state of the step. "
-            "X is stored as the matrix D. The array result is the matrix R "
-            f"with exp(B S B^T) X = X_0 + B R. The argument core is the {m} x {m} matrix S. The argument "
-            "gram is B^T B."
+            "X is stored as the matrix D. "
+            f"Input: core = S, an {m} x {m} matrix, and gram = B^T B. "
+            "Output: result = R with exp(B S B^T) X = X_0 + B R."
         )
         return Function(self.name, about, parameters, tuple(body))
 

@@ -57,8 +57,8 @@ from codegen.run.trajectory import DONE, Rows, completed, run_parameters
 BEGIN, FINISH, COMPLETE = "begin", "finish", "complete_step"
 """The names of three emitted functions.
 
-- BEGIN applies the first flow of a step. If the last flow of the previous step and this flow were applied as
-  one flow, BEGIN is not called.
+- BEGIN applies the first flow of a step. BEGIN is not called if the previous step has already applied this
+  first flow.
 - FINISH applies the deferred flows.
 - COMPLETE applies all flows of one step.
 """

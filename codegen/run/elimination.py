@@ -1,4 +1,4 @@
-"""Invert a matrix by elimination. Emitted code uses the same operations in the same order."""
+"""Invert a matrix with the same operations, in the same order, as the emitted function ``invert``."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ def inverted(n: int, matrix: list[Any]) -> int:
             sizes = abs(rows[k:, k])
             pivot = k + max(range(n - k), key=sizes.__getitem__)
             if not sizes[pivot - k] > 0:
-                # The solver computes changes of the unknowns from the unfinished matrix, too, and then tests
-                # whether the changes are finite.
+                # There is no usable pivot. The emitted function stops here, too, and leaves the partly
+                # eliminated matrix in the array, so the same numbers are stored in ``matrix``.
                 matrix[:] = rows.ravel().tolist()
                 return 0
             order.append(pivot)

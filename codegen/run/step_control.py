@@ -16,9 +16,10 @@ I, section II.4. The controller is by Gustafsson (Hairer and Wanner, Solving Ord
 II, section IV.2). With the exponents 0.7/p and 0.4/p in place of 0.8/p and 0.2/p, the step size would
 oscillate less, but it would follow the solution more slowly.
 
-If the caller gives no step size, the first trial step has 1/16 of the length of the interval of integration.
-In such a run, the factor after the first accepted step is 0.9 norm^(-1/p), because ``before`` does not exist.
-This factor is limited to [0.2, 16] if the first trial step is accepted, and to [0.2, 1] otherwise.
+The first accepted step has no previous accepted step. If the caller gives a step size, ``before`` = 1 is used
+for the first accepted step. If the caller gives no step size, the first trial step has 1/16 of the length of
+the interval of integration, and the factor after the first accepted step is 0.9 norm^(-1/p). This factor is
+limited to [0.2, 16] if the first trial step is accepted, and to [0.2, 1] otherwise.
 
 After a change of the step size, the solutions of earlier steps are bad initial guesses. Therefore implicit
 steps do not use these solutions.

@@ -189,7 +189,8 @@ class _FixedPoint(_Loop):
         return [*self.begin(), *self.until_converged(body)]
 
     def narrow(self) -> tuple[list[Statement], Term]:
-        """Return the statements that compute |g(u) - u| for each unknown u, and the sum of these numbers."""
+        """Return a pair: the statements that compute |g(u) - u| for each unknown u, and a term for the sum of
+        these numbers."""
         changes = self.named("change")
         sequence: list[Statement] = [
             Assign(change, size(x - u))

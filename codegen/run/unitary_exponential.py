@@ -143,8 +143,8 @@ def _horner(part: list[Term], trace: Term, det: Term, added: tuple[Term, int] | 
     added.
     """
     last = real("last")
-    # For k = 0, 1, 2, 3, the number i^k a is a, i a, -a, -i a. ``constant`` is the real part of i^k a if k is
-    # even, and the imaginary part of i^k a if k is odd: a, a, -a, -a for k = 0, 1, 2, 3.
+    # The number a is real. For k = 0, 1, 2, 3, the number i^k a is a, i a, -a, -i a. ``constant`` is this
+    # number without the factor i: a, a, -a, -a.
     constant = number(0.0) if added is None else -added[0] if added[1] >= 2 else added[0]
     return [
         # The old coefficient of H^2 is saved, because the last two statements still need it.

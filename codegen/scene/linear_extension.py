@@ -62,8 +62,8 @@ def extended_linear(problem: Problem, u: str) -> Problem:
 def without_momentum_rate(problem: Problem) -> Problem:
     """Return the extended linear problem with u' = 0, where u is the momentum conjugate to the time.
 
-    The equation u' = -dH/dt is replaced, because methods for linear problems need a field that does not
-    contain the state, but -dH/dt contains the state.
+    In a linear problem y' = A(t) y, the formulas of A must not contain the state y. The formula -dH/dt
+    contains the state. Therefore the equation u' = -dH/dt is replaced by u' = 0.
     """
     zero = problem.roots[-1].space.zero
     return replace(problem, roots=(*problem.roots[:-1], zero))

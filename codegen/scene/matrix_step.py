@@ -86,7 +86,7 @@ class MatrixFormula(ABC):
     @property
     @abstractmethod
     def place(self) -> Place:
-        """The set of all values of the formula: the Lie algebra, the group, or all square matrices."""
+        """The set that contains the values: the Lie algebra, the group, or all square matrices."""
 
     @abstractmethod
     def value(self, at: Evaluation[S]) -> Vector[S]:
@@ -337,10 +337,7 @@ class Logarithm(Unary):
         return Place.MATRIX
 
     def closed_forms(self) -> Iterator[MatrixFormula]:
-        """Yield this logarithm, and then the exponentials and logarithms in ``of`` that have closed forms.
-
-        Every logarithm is computed by a closed form.
-        """
+        """Yield this logarithm, which is computed by a closed form, and then ``of.closed_forms()``."""
         yield self
         yield from super().closed_forms()
 

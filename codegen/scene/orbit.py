@@ -94,7 +94,10 @@ class Orbit:
     def _near(
         self, start: dict[str, Sized], constants: dict[str, Sized], rng: random.Random
     ) -> list[dict[str, Sized]]:
-        """Return points that differ from the initial state by typical amounts in the units of the scene.
+        """Return points near the initial state.
+
+        The points are about as far from the initial state as the solution moves in 1/:data:`NEAR_STEPS` of
+        the time span.
 
         If the typical values of a coordinate are far below 1, points at distances of about 1 from the initial
         state are not sufficient. At such points, some terms of a formula may be smaller than the rounding

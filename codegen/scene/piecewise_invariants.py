@@ -1,11 +1,12 @@
-"""Checks of declared invariants whose formulas contain selections: operations with several cases, as abs(x).
+"""Checks of declared invariants whose formulas contain selections.
 
-If the argument of a selection is constant along solutions, the case of the selection never changes. If the
-case may change, two conditions are checked:
+A selection is an operation with several cases. For example, abs(x) is x or -x. If the argument of a selection
+is constant along solutions, the case of the selection never changes. If the case may change, two conditions
+are checked:
 
 - The invariant is continuous where the case changes.
-- For every choice of one case for each selection, the invariant with the chosen cases is constant along the
-  solutions of the field with the chosen cases.
+- If every selection in the invariant and in the field is replaced by one of its cases, for example abs(x) by
+  -x, the invariant is constant along the solutions. All possible combinations of cases are checked.
 """
 
 from __future__ import annotations
@@ -38,9 +39,9 @@ NEWTON_STEPS = 60
 """The largest number of Newton steps to a zero. A simple zero takes about ten steps for 40 digits."""
 
 BESIDE = Fraction(1, 10**26)
-"""The distance of two points from a zero of x, for an invariant that contains abs(x) or another operation
-with two cases. The points are on the two sides of the zero. If the invariant has a jump at the zero, its
-values at the two points are different.
+"""The distance between a test point and a zero of x, where x is the argument of an operation with two cases,
+for example abs(x). One test point is on each side of the zero. If an invariant has a jump at the zero, the
+values of the invariant at the two test points are different.
 
 The distance is much larger than rounding errors of 40 digits. Between the two points, a continuous function
 usually changes by much less than :data:`codegen.scene.orbit.TOLERANCE`.
@@ -218,7 +219,8 @@ def _contradictory(margins: Sequence[Expr]) -> bool:
 def _key(node: Expr) -> tuple[object, bool]:
     """Return a key and a flag for the argument x of ``node``.
 
-    If ``node`` is not a table, x and -x have the same key, but different flags.
+    If ``node`` is the value of a table at x, the flag is False. Otherwise, x and -x have the same key, but
+    different flags.
     """
     x, flipped = node.args[0], False
     if isinstance(node.payload, PiecewisePolynomial):

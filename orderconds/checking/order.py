@@ -137,8 +137,8 @@ def family_order(
       ``family``, so the order in ``family`` is at most ``bound.order``.
     - ``proved``: maps the labels of other families to proved orders. Conditions that follow from the proved
       orders are not evaluated (:mod:`orderconds.families.reductions`).
-    - ``brief``: if true, conditions of the order ``bound.order`` + 1 are not evaluated. If the order is
-      ``bound.order``, the result then contains the failing conditions of ``bound``.
+    - ``brief``: if true, the search ends at the order ``bound.order``. If all conditions up to this order
+      hold, the failing conditions in the result are those of ``bound``.
     - ``meter``: counts the evaluated conditions. The search ends if a limit on the work is reached.
 
     >>> from orderconds.families import get

@@ -235,7 +235,9 @@ def _beside(tableau: Tableau, wanted: Sequence[tuple[Family, int | None]], requi
 
 
 def _bounding(tableau: Tableau, labels: Collection[str]) -> list[Reading]:
-    """Return the families in which the order of ``tableau`` can bound the order in other families.
+    """Return the families of ``tableau`` whose attribute ``bounds_others`` is true.
+
+    For example, the order in ``rk`` is an upper bound of the order in ``cg``.
 
     Each entry of the result is a tuple: a form of the tableau, a family that accepts this form, and the
     claimed order in this family. Families with a label in ``labels`` are omitted.

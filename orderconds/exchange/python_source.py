@@ -99,9 +99,9 @@ def reason_to_skip(content: bytes) -> str:
 
 
 def is_plainly_other(content: bytes) -> bool:
-    """Return True if the values of the variables A, a and b contain no list or tuple.
+    """Return True if no right-hand side of ``A = ...``, ``a = ...`` or ``b = ...`` contains a list or tuple.
 
-    If Python cannot parse the source, the values are unknown, and the result is False.
+    If Python cannot parse the source, the assignments are unknown, and the result is False.
 
     >>> [is_plainly_other(x) for x in (b"import os", b"a = [[0, 0], [1, 0]]", b"a = f(1)")]
     [True, False, True]

@@ -232,12 +232,12 @@ class CrouchGrossmanFormula(ExponentialsFormula):
         return product(_runge_kutta(row, place), self.tau(tree, place))
 
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return the coefficient of the word (``before``, x, ``after``) in the series of a group element.
+        """Return the coefficient of a word in the series of a group element.
 
         The group element belongs to stage ``row``. If ``row`` is None, the group element is the update.
 
-        The words ``before`` and ``after`` consist of trees. The velocity of stage ``stage`` is a linear
-        combination of trees. A new letter x is added to this velocity.
+        The word consists of the trees in ``before``, a new letter x, and the trees in ``after``. The velocity
+        of stage ``stage`` is a linear combination of trees, to which the letter x is added.
         """
         return product(_runge_kutta(row, stage), self.around(row, stage, before, after))
 
@@ -268,12 +268,12 @@ class CommutatorFreeFormula(ExponentialsFormula):
         return index_sum((stage,), (), product(self._entry(row, place, stage), self.tau(tree, stage)))
 
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return the coefficient of the word (``before``, x, ``after``) in the series of a group element.
+        """Return the coefficient of a word in the series of a group element.
 
         The group element belongs to stage ``row``. If ``row`` is None, the group element is the update.
 
-        The words ``before`` and ``after`` consist of trees. The velocity of stage ``stage`` is a linear
-        combination of trees. A new letter x is added to this velocity.
+        The word consists of the trees in ``before``, a new letter x, and the trees in ``after``. The velocity
+        of stage ``stage`` is a linear combination of trees, to which the letter x is added.
         """
         place = self.place()
         inner = product(self._entry(row, place, stage), self.around(row, place, before, after))
@@ -314,12 +314,12 @@ class MuntheKaasFormula(ActionFormula):
         return product(*(self._power(row, 1, (letter,)) for letter in word))
 
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return the coefficient of the word (``before``, x, ``after``) in the series of an exponential.
+        """Return the coefficient of a word in the series of an exponential.
 
         The exponential belongs to stage ``row``, or to the update if ``row`` is None.
 
-        The words ``before`` and ``after`` consist of trees. The velocity of stage ``stage`` is a linear
-        combination of trees. A new letter x is added to this velocity.
+        The word consists of the trees in ``before``, a new letter x, and the trees in ``after``. The velocity
+        of stage ``stage`` is a linear combination of trees, to which the letter x is added.
         """
         return self._exponential(row, (*before, stage, *after))
 

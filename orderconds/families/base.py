@@ -258,8 +258,10 @@ class Family(ABC):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family if :func:`orderconds.check` with ``complete=True`` requires that the file of
-        ``tableau`` claims an order in this family. Otherwise return None."""
+        """Return this family if the file of ``tableau`` should claim an order in this family, else None.
+
+        If the claim is missing, :func:`orderconds.check` with ``complete=True`` reports a broken claim.
+        """
         return None
 
     def claim(self, order: int) -> OrderClaim:
@@ -352,8 +354,8 @@ class Family(ABC):
         condition is known.
 
         The returned condition belongs to the order ``order``. Let p be the highest order of a method of this
-        family. If ``order`` is p + 1, the returned condition contradicts the other conditions of orders 1,
-        ..., p + 1. If ``order`` <= p, every method of order p satisfies the returned condition.
+        family. No method has order p + 1, because the condition that is returned for ``order`` = p + 1
+        contradicts the other conditions of orders 1, ..., p + 1.
         """
         return None
 

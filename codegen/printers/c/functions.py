@@ -43,7 +43,7 @@ from codegen.snippets.graph import LIBRARY
 MANY = 20
 """If more than ``MANY`` short statements follow each other, several statements are printed on each line."""
 
-ONE_TEST = "The sum of finite x may overflow, but x - x is 0. If x is not finite, x - x is NaN."
+ONE_TEST = "Are all x finite? If their sum overflows, test x - x: 0 if x is finite, else NaN."
 
 
 class FunctionPrinter:

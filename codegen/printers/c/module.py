@@ -255,7 +255,7 @@ def stack(unit: Unit, plan: Plan, interface: Interface) -> str:
         )
     # Without optimisation, a call needs about ``size * numbers + frames`` bytes.
     margin = f"; {bound - size * numbers - frames} of these bytes are a safety margin" if each > size else ""
-    return f"at most {bound} bytes with {MEASURED}{margin}; mathematical library functions use more"
+    return f"at most {bound} bytes with {MEASURED}{margin}; math library functions need extra bytes"
 
 
 def own_names(interface: Interface, unit: Unit) -> frozenset[str]:
