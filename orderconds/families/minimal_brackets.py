@@ -61,5 +61,6 @@ class MinimalBrackets(MuntheKaasFamily):
         )
 
     def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:
-        """Return None, because :attr:`program` contains a few brackets instead of the series of dexpinv."""
+        """An :class:`UnseenCut` tests whether a truncation of dexpinv changes a condition. Return None,
+        because :attr:`program` does not contain the series of dexpinv."""
         return None

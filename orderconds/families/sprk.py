@@ -121,11 +121,11 @@ class SymplecticPartitionedFamily(Family):
         ``orders["rk"]`` is the order p of the method in the family ``rk``. For a symplectic tableau, the
         bound is p.
 
-        For all other tableaux, let m be the largest integer such that 2m <= p and Butcher's simplifying
-        assumptions C(m) and D(m) hold. The tableau (ahat, bhat) for the momenta then also satisfies C(m) and
-        D(m). If two tableaux with the same weights satisfy C(m) and D(m), the theorem of Butcher for a single
-        tableau also holds for the pair: the order is at least min(p, 2m + 1), which is the returned bound.
-        For Lobatto pairs, Jay (1996) proves this bound.
+        For all other tableaux, the bound is min(p, 2m + 1). Here m is the largest integer such that 2m <= p
+        and (a, b) satisfies Butcher's simplifying assumptions C(m) and D(m). The tableau (ahat, bhat) for the
+        momenta then also satisfies C(m) and D(m). By a theorem of Butcher, a tableau that satisfies B(p),
+        C(m) and D(m) has at least the order min(p, 2m + 1). The theorem also holds for a pair of tableaux
+        with the same weights. For Lobatto pairs, Jay (1996) proves the bound.
 
         >>> from orderconds.tableau.collocation import construct
         >>> radau = construct("radau2a", 3)

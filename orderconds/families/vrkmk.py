@@ -71,8 +71,7 @@ class VariationalMuntheKaas(DexpinvCut, ActionFamily):
 
         Let r be ``self.cutoff``, and let p be the highest order of a method of ``vrkmk(r)``: p is r + 3 for
         even r >= 2, and r + 2 for all other r. No method has order p + 1, because the condition that is
-        returned for ``order`` = p + 1 contradicts the other conditions of orders 1, ..., p + 1. If ``order``
-        <= p, every method of order p satisfies the returned condition.
+        returned for ``order`` = p + 1 contradicts the other conditions of orders 1, ..., p + 1.
         """
         if self.cutoff is None or order < 3:
             return None

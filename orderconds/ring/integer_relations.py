@@ -59,7 +59,8 @@ def root_of(d: int, bits: int) -> Fraction:
 
 
 def quadratic_field(x: Fraction, bits: int) -> int | None:
-    """Return the square-free integer d > 1 of a quadratic field Q(sqrt(d)) that probably contains x.
+    """Let y be the unknown number that x approximates. Return a square-free integer d > 1 such that probably
+    y = u + v sqrt(d) with rational numbers u and v.
 
     Search for a quadratic polynomial p with small integer coefficients such that |p(x)| is at most a small
     multiple of 2^-bits. The roots of p are irrational elements of Q(sqrt(d)). Return None if no polynomial p

@@ -16,10 +16,10 @@ coefficients of words with a new letter x. The velocity xi_i is a linear combina
 added to xi_i, and the velocities of all other stages remain unchanged. The expansions of the group elements
 of the stages and of the update then contain words with the letter x.
 
-- For a tree p = H(u*v|M), let z_j be the coefficient of the word (u, x, v) in the group element of stage
-  j. Then ``psi_p(i) = (1/b_i) sum_j b_j z_j prod_{q in M} psi_q(j)``.
-- For a tree p = L(w), let d be the coefficient of the word (x, reverse(w)) in the update. Then
-  ``psi_p(i) = d/b_i``.
+- For a tree p = H(u*v|M), let z_ij be the coefficient of the word (u, x, v) in the group element of stage
+  j. Then ``psi_p(i) = (1/b_i) sum_j b_j z_ij prod_{q in M} psi_q(j)``.
+- For a tree p = L(w), let d_i be the coefficient of the word (x, reverse(w)) in the update. Then
+  ``psi_p(i) = d_i/b_i``.
 
 Let e_t be the coefficient of the tree t in the exact flow. The order condition of t is the equation
 ``sum_i b_i tau_t(i) = e_t``.
@@ -77,10 +77,10 @@ class ActionSeries(ABC):
 
     @abstractmethod
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
-        """Add a new letter x to the velocity of stage ``stage``, which is a linear combination of trees. Then
-        expand the group element of stage ``row``, or of the update if ``row`` is the number of stages. Return
-        the coefficient of the word that consists of the trees in ``before``, the letter x, and the trees in
-        ``after``."""
+        """The velocity of stage ``stage`` is a linear combination of trees. Add a new letter x to this linear
+        combination. Then expand the group element of stage ``row``, or of the update if ``row`` is the number
+        of stages. Return the coefficient of the word that consists of the trees in ``before``, the letter x,
+        and the trees in ``after``."""
 
     def stage_coefficients(self, word: Word) -> Stages:
         """Return the coefficient of ``word`` in the group element of each stage."""

@@ -72,10 +72,10 @@ class MuntheKaasActionSeries(ActionSeries):
         return self._exponential(0, word) if word else [self.ring.one] * self.stages
 
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
-        """Add a new letter x to the velocity of stage ``stage``, which is a linear combination of trees. Then
-        expand the group element of stage ``row``, or of the update if ``row`` is the number of stages. Return
-        the coefficient of the word that consists of the trees in ``before``, the letter x, and the trees in
-        ``after``."""
+        """The velocity of stage ``stage`` is a linear combination of trees. Add a new letter x to this linear
+        combination. Then expand the group element of stage ``row``, or of the update if ``row`` is the number
+        of stages. Return the coefficient of the word that consists of the trees in ``before``, the letter x,
+        and the trees in ``after``."""
         update, place = (1, 0) if row == self.stages else (0, row)
         return self._varied_exponential(update, before, after)[place].get(stage, self.ring.zero)
 

@@ -6,9 +6,10 @@ trees, and let M and N be multisets of trees. The trees A and B are
 - A: ``o(w | M, H(u*v | N))``,
 - B: ``o(u o(w | M) v | N)``.
 
-In A, the symbol H denotes a neighbour of the root. In B, this neighbour is the root, and is denoted by ``o``
-instead of H. The rest ``o(w | M)`` of A becomes a branch of the root of B in place of the symbol ``*``,
-between the words u and v. For example, ``o(|H(*))`` becomes ``o(o)``.
+Both trees have a vertex a with the branches w and M, a vertex b with the branches u, v and N, and an edge
+between a and b. In A, the vertex a is the root, b is denoted by H, and ``*`` marks the place of the edge
+among the branches of b. In B, the vertex b is the root, and ``o(w | M)`` is at this place. For example, if
+all words and multisets are empty, A is ``o(|H(*))``, and B is ``o(o)``.
 
 The left-hand side of each condition contains one sum over the stages for the root of A, and one sum over the
 stages for the root of B. In the conditions of A and B, only the order of these two sums is different.

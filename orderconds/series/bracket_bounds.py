@@ -24,12 +24,13 @@ Second bound: for each argument, form the sum of the terms that have at least tw
 letter. This sum is called the linear part of the argument. Let ad_q be the operator with ad_q y = [q, y]. To
 obtain the operator ad_(P) for a polynomial P, replace each letter q in P by the operator ad_q. For example,
 let q_1 and q_2 be old letters, and let q_n be a new letter. With the polynomial P = q_2 q_1, ad_(P) q_n is
-the bracket [q_2, [q_1, q_n]]. Each argument is a linear combination of letters and of (nested) brackets. Each
-nested bracket of old letters and exactly one new letter q_n equals ad_(P) q_n with a polynomial P in the old
-letters, because [x, y] = -[y, x] and ad_[x, y] = ad_x ad_y - ad_y ad_x. Therefore the linear part of each
-argument has the form sum_n ad_(P_n) q_n. Here n runs over the indices of the new letters, and P_n is a
-polynomial in the old letters. Let S be the space that the linear parts of u_1, ..., u_i span, and let d be
-the dimension of S.
+the bracket [q_2, [q_1, q_n]]. Each argument is a linear combination of letters and of (nested) brackets. By
+antisymmetry and the Jacobi identity, each nested bracket of old letters and exactly one new letter q_n has
+the form ad_(P) q_n with a polynomial P in the old letters. For example, [q_n, q_1] = -[q_1, q_n] has
+P = -q_1, and [[q_1, q_2], q_n] = [q_1, [q_2, q_n]] - [q_2, [q_1, q_n]] has P = q_1 q_2 - q_2 q_1. Therefore
+the linear part of each argument has the form sum_n ad_(P_n) q_n. Here n runs over the indices of the new
+letters, and P_n is a polynomial in the old letters. Let S be the space that the linear parts of u_1, ..., u_i
+span, and let d be the dimension of S.
 
 The linear part of a bracket is defined in the same way. The linear part of each argument is a linear
 combination of the linear parts of the N brackets. Hence N is at least d.
@@ -60,13 +61,12 @@ from orderconds.series.graded import GradedAlgebra, Polynomial, Word, solve
 
 
 def newest_factors(x: Mapping[Word, Element], first: int) -> dict[int, Polynomial]:
-    """Return a map from new letters n to the polynomials P_n in the linear part of x (module docstring).
+    """A letter is a number. Letters below ``first`` are called old, and all other letters are called new.
+    Return a map from each new letter n to a polynomial P_n in the old letters.
 
     The polynomial x is a linear combination of letters and (nested) brackets, expanded into words. A word is
-    a tuple of letters, and a letter is a number. The numbers below ``first`` are old letters, and all other
-    numbers are new letters. The linear part of x is the sum of ad_(P_n) q_n over all new letters n,
-    where q_n is the polynomial that consists of the letter n. In P_n, the coefficient of a word w of old
-    letters is the coefficient of the word w n in x. If P_n is zero, n is not a key of the map.
+    a tuple of letters. In P_n, the coefficient of a non-empty word w of old letters is the coefficient of the
+    word (w, n) in x. If P_n is zero, n is not a key of the map. The module docstring explains the use of P_n.
 
     >>> {n: {w: str(x) for w, x in p.items()} for n, p in newest_factors({(0, 1): 2, (1, 0): -2}, 1).items()}
     {1: {(0,): '2'}}

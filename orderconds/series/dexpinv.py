@@ -133,14 +133,13 @@ class DexpinvSeries:
         """Let x be a letter, and let u be a linear combination of non-empty words. Return those terms of the
         truncated series dexpinv_u x that can contain a word (v, x, w), where v is a word of ``before``
         letters, and w is a word of ``behind`` letters. Each term has the form q u^n x u^m with a coefficient
-        q, and is returned as the triple (q, m, n). In a product, the rightmost factor acts first. In a word
-        and in the triple, the part that acts first is on the left. Therefore the rightmost factor u^m gives
-        v, the left part of the word, and m is on the left of n.
+        q, and is returned as the triple (q, m, n). The factor u^m gives the word v, and the factor u^n gives
+        the word w, because products are read from right to left, and words from left to right.
 
-        - The factor u^m gives the word v. If ``before`` is zero, m is zero. If ``before`` is positive, m is
-          one of the numbers 1, ..., ``before``.
-        - The factor u^n gives the word w. If ``behind`` is zero, n is zero. If ``behind`` is positive, n is
-          one of the numbers 1, ..., ``behind``.
+        - If ``before`` is zero, m is zero. If ``before`` is positive, m is one of the numbers 1, ...,
+          ``before``.
+        - If ``behind`` is zero, n is zero. If ``behind`` is positive, n is one of the numbers 1, ...,
+          ``behind``.
         """
         terms_kept = self._in_sight.get((before, behind))
         if terms_kept is None:

@@ -54,7 +54,8 @@ class ProductOfExponentials:
             values = [self._ring.zero]
             for J in range(self._count):
                 value, run = values[-1], None
-                # Summand r: exp(X_J) gives the last r letters of ``word``, earlier factors the other letters.
+                # In summand r, the last r letters of ``word`` come from exp(X_J), and the other letters come
+                # from exp(X_(J-1)) ... exp(X_0).
                 for r, letter in enumerate(letters, start=1):
                     x = letter[J]
                     if x is None:

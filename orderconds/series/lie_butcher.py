@@ -56,10 +56,10 @@ class ExponentialsSeries:
         self._ring = ring
         self._rows: list[SparseRow] = []
         self._places: list[tuple[int, int, int]] = []
-        """The product of the first n exponentials of a stage or of the update is called a partial product,
-        for each possible number n = 0, 1, .... The partial products are numbered P_0, P_1, .... The product
-        P_0 has no factors. For every other product P_p there is one triple (p, q, r). The triple states that
-        P_p = exp(X_r) P_q, where X_r is the exponent ``_rows[r]``."""
+        """A stage or update that is the product E_m ... E_1 of exponentials has the partial products I, E_1,
+        E_2 E_1, ..., E_m ... E_1. All distinct partial products of all stages and of the update form one list
+        P_0, P_1, .... The product P_0 is the identity I. For every other product P_p there is one triple
+        (p, q, r). The triple states that P_p = exp(X_r) P_q, where X_r is the exponent ``_rows[r]``."""
         known: dict[tuple[int, int], int] = {}
         numbers: dict[tuple[tuple[int, int], ...], int] = {}
 

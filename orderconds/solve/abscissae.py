@@ -138,12 +138,12 @@ def symmetric_transport(
 
     Let k_j be the vector field at stage j. Row J of ``update`` contains the coefficients of k_1, ..., k_s in
     the J-th exponential of the update. Let r be s/2, rounded down. If i <= r, stage i begins with the first
-    ``leave[i - 1]`` exponentials of the update. The later exponentials of stage i are called own
-    exponentials. Let a_ij be the sum of the coefficients of k_j in all exponentials of stage i. Let x_ij be
-    the sum of the coefficients of k_j in the own exponentials of stage i.
+    ``leave[i - 1]`` exponentials of the update. If s is odd, the middle stage i = r + 1 begins with the first
+    half of the update. The later exponentials of a stage are called own. In all exponentials of stage i, the
+    coefficients of k_j have the sum a_ij. In the own exponentials, the coefficients of k_j have the sum x_ij.
 
     - ``own`` contains the row (x_i1, ..., x_is) for i = 1, ..., r.
-    - ``middle`` contains the row of the middle stage. If s is even, ``middle`` is empty.
+    - ``middle`` contains the row (x_i1, ..., x_is) for i = r + 1. If s is even, ``middle`` is empty.
 
     With the formulas, sum_j a_ij = m_i for each i, and sum_i b_i a_ij = b_j (1 - m_j) for each j, where b_i
     are the weights. There are formulas for the last column of ``own``, for the first r entries of the last

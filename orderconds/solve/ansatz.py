@@ -34,8 +34,8 @@ class Ansatz:
       method is a Runge-Kutta method
     - ``measured``: the label of the family in which the principal error is computed; None means ``family``
     - ``centre``: values of the free coefficients; random starts are chosen near these values
-    - ``assumptions``: properties that all methods of this form have, but that do not follow from the options
-      of the search; each property is a clause such as ``all weights b_i are nonzero``
+    - ``assumptions``: restrictions on the methods in addition to the options of the search; each
+      restriction is a clause such as ``all weights b_i are nonzero``
     """
 
     family: str

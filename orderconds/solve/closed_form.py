@@ -49,13 +49,13 @@ def closed_forms(
     :data:`MAX_DEGREE`. A closed form is a rational combination of basis elements. Three bases are tried:
 
     - 1 and the square roots
-    - Let r be a number of the lowest degree d among the numbers that are not rational combinations of the
-      first basis. The second basis consists of the products of an element of the first basis and one of the
-      powers r^0, ..., r^(d-1).
+    - the products y r^k, where y is an element of the first basis, r is one of the numbers, d is the degree
+      of r, and k = 0, ..., d - 1
     - the powers r^0, ..., r^(d-1) of an algebraic number r of degree d, where d is the largest of the degrees
       of the numbers
 
-    Without ``radicals``, only the third basis is tried.
+    In the second basis, r must not be a rational combination of the first basis. If several numbers meet this
+    requirement, r is one with the lowest degree. Without ``radicals``, only the third basis is tried.
 
     >>> with precision(400):
     ...     root = arb(3).sqrt()

@@ -113,18 +113,19 @@ def infeasible(problem: Problem) -> Infeasible | None:
     if len(names) > MAX_UNKNOWNS:
         return None
     # The formulas of symplectic methods divide by the weights, so the proof considers only methods with
-    # nonzero weights. Some options make this an assumption (``Ansatz.assumptions``). Without these options, a
-    # method with a zero weight computes the same step as a method with nonzero weights: if b_i = 0,
-    # symplecticity implies a_ki = 0 for each stage k with b_k != 0. Hence stage i has no effect on the step.
-    # Choose a stage j with b_j != 0. To construct a method with fewer zero weights, replace stage i by a copy
-    # of stage j, and divide b_j and all coefficients a_1j, ..., a_sj equally between stage j and the copy.
+    # nonzero weights. This is sufficient, because every method with a zero weight b_i can be replaced by a
+    # method with fewer zero weights that computes the same step. Symplecticity implies a_ki = 0 for each
+    # stage k with b_k != 0. Hence stage i has no effect on the step. Choose a stage j with b_j != 0. Replace
+    # stage i by a copy of stage j, and divide b_j and all coefficients a_1j, ..., a_sj equally between stage
+    # j and the copy. The new method can violate the options --dirk, --symmetric and --fix. With one of these
+    # options, the proof therefore assumes nonzero weights (``Ansatz.assumptions``).
     divides = problem.family.needs_nonzero_weights or problem.family.symplectic
     ring = LaurentPolynomials(names) if divides else Polynomials(names)
     try:
         values = problem.residuals(ring.generators, cast("RootedRing", ring), _conditions(problem))
         nonzero = _nonzero(problem, ring)
-        # The formulas of the ansatz must solve the equations of symplecticity. Otherwise, the formulas could
-        # also exclude symplectic methods, and a proof would not be valid for the excluded methods.
+        # A proof is valid only for methods that satisfy the formulas of the ansatz. If the formulas do not
+        # imply symplecticity, a symplectic method may violate the formulas. In this case, return no proof.
         if problem.family.symplectic and not _is_symplectic(problem, ring):
             return None
     except (

@@ -1,7 +1,8 @@
 """Minimisation of the principal error over the solutions of the order conditions.
 
-Let F be the vector of residuals of the conditions. The principal error is the norm of a vector E. Let F' and
-E' be the Jacobians of F and E. Each step adds a vector p to the coefficients. The vector p minimises
+Let F be the vector of residuals of the conditions. Let E be the vector of residuals of the conditions of
+order q + 1, where q is the required order. The principal error is the norm of E. Let F' and E' be the
+Jacobians of F and E. Each step adds a vector p to the coefficients. The vector p minimises
 |E + E' p|^2 + d |p|^2 under the constraint F + F' p = 0, where d is a damping parameter. The constraint is
 the linearisation of the conditions at the current coefficients. A few iterations of
 :func:`orderconds.solve.least_squares.least_squares` then solve the conditions again.

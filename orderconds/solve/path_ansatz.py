@@ -16,10 +16,10 @@ from orderconds.solve.spec import Spec, refuse
 from orderconds.solve.tableau_ansatz import tableau_structures
 
 MIRRORED = (
-    "the update has m exponentials, and exponential m+1-J has the coefficients of exponential J in reverse "
-    "order; if m and s are odd, exponential (m+1)/2 of the middle stage has half the coefficients of "
-    "exponential (m+1)/2 of the update; X_i1, X_i2, ... are the exponents of stage i that are not mentioned "
-    "above; X_(s+1-i)r has the coefficients of -X_ir in reverse order"
+    "Y_1, ..., Y_m are the exponents of the update, and Y_(m+1-J) is Y_J with the coefficients in reverse "
+    "order; the last exponents of stage i are X_i1, X_i2, ...; if j = s + 1 - i, where s is the number of "
+    "stages, then X_jr is -X_ir with the coefficients in reverse order; if m and s are odd, stage "
+    "i = (s+1)/2 has the exponent (1/2) Y_((m+1)/2) directly before X_i1"
 )
 """The assumptions about symmetric methods (:mod:`orderconds.solve.paths`)."""
 

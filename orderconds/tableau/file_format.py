@@ -30,8 +30,8 @@ MAX_PARTS = 6
 
 class RootEntry(Struct, forbid_unknown_fields=True):
     """A real root of a polynomial. ``minpoly`` contains the coefficients of the polynomial, beginning with
-    the constant term. The distance from the decimal ``near`` to exactly one real root of the polynomial must
-    be at most one unit in the last digit of ``near``."""
+    the constant term. Exactly one real root of the polynomial must lie between ``near`` - u and ``near`` + u.
+    Here u is one unit in the last digit of the decimal ``near``."""
 
     minpoly: list[Coefficient]
     near: str

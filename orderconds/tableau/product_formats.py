@@ -241,8 +241,8 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
                     raise TableauError(
                         f"for some quadratic Lie groups, exponent number {k + 1} is not in the Lie algebra",
                         where=f"{self.name}: exponents[{k + 1}]",
-                        expected="each product P of an even number of factors only in P - R (A*B - B*A), "
-                        "and each product P of an odd number of factors only in P + R (A*B*C + C*B*A), where "
-                        "R is the product of the factors of P in reverse order",
+                        expected="a sum in which each product and the product in reverse order have opposite "
+                        "coefficients for an even number of factors, such as A*B - B*A, and equal "
+                        "coefficients for an odd number of factors, such as A*B*C + C*B*A",
                     )
         return method, None

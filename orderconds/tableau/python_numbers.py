@@ -43,9 +43,9 @@ def coefficient(x: object, where: str) -> Coefficient:
     """Convert a number to a coefficient of a tableau file.
 
     The value of a NumPy float of 16 or 32 bits is a fraction in lowest terms. If the denominator of the
-    fraction is larger than 1024 (:data:`SMALL`), the float becomes a rounded decimal. For other floats, see
-    :func:`~orderconds.tableau.doubles.double_text`. Raises TableauError for complex numbers, infinities, NaN,
-    truth values and objects that are not numbers.
+    fraction is larger than 1024 (:data:`SMALL`), the float becomes a rounded decimal. Otherwise, the float is
+    converted like a double, by :func:`~orderconds.tableau.doubles.double_text`. Raises TableauError for
+    complex numbers, infinities, NaN, truth values and objects that are not numbers.
 
     >>> from fractions import Fraction
     >>> [coefficient(x, "b[1]") for x in (1, Fraction(1, 3), "sqrt(3)/6", 0.25, 0.1)]

@@ -1,8 +1,8 @@
 """Random methods over Q: random numbers replace the rounded decimals and the radicals of a tableau file.
 
 The coefficients of the method are rational functions of the replaced numbers. An identity between two
-rational functions is tested at one random point. If the identity holds for all points, it also holds for the
-exact decimals and radicals.
+rational functions is tested at one random point. An identity that holds for all points also holds for the
+radicals and for the unknown numbers that the rounded decimals approximate.
 
 Each coordinate of the random point is drawn from 2^128 numbers. Let f and g be two different functions, and
 let D be the degree of the numerator of f - g. The probability that f and g have the same value at the random

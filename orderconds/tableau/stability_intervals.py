@@ -48,16 +48,16 @@ FIRST_TRY = 64
 of the library need at most 18 subintervals. A multiple zero would need infinitely many."""
 
 MOST = 5000
-"""The limit on the number of subintervals in the second search, for a polynomial without multiple zeros. The
-limit bounds the work for zeros that are extremely close to each other."""
+"""If the first search fails, multiple zeros can be removed from the polynomial. A second search then uses at
+most MOST subintervals. This limit bounds the work for zeros that are extremely close to each other."""
 
 ACCURACY = 60
 """A zero is enclosed in an interval of relative length 2^-ACCURACY, less than the rounding of a double."""
 
 COARSE = 13
-"""If the coefficients are balls, each interval that is proved to enclose a zero can be longer than the
-relative length 2^-60 (:data:`ACCURACY`). In this case, an interval of relative length at most 2^-COARSE,
-about 10^-4, is accepted. A longer interval would not determine the four digits that the program prints."""
+"""If the coefficients are balls, it can be impossible to enclose a zero in an interval of relative length
+2^-60 (:data:`ACCURACY`). In this case, an interval of relative length at most 2^-COARSE, about 10^-4, is
+accepted. A longer interval would not determine the four digits that the program prints."""
 
 
 class Intervals(Struct, frozen=True):
@@ -96,8 +96,9 @@ def stability_intervals(
 
     - ``order`` is a proved order of the method. From R(z) = e^z + O(z^(order + 1)) follows
       |R(iy)|^2 - 1 = O(y^(order + 1)).
-    - ``vanishing`` states which coefficients of the two polynomials are zero for all values of the rounded
-      decimals (:func:`vanishing_coefficients`).
+    - ``vanishing`` states which coefficients of the two polynomials are zero. To determine ``vanishing``,
+      replace the rounded decimals in the tableau by random rational numbers, and call
+      :func:`vanishing_coefficients`.
 
     >>> from orderconds.ring import QQ
     >>> one, half = QQ.one, QQ.rational(1, 2)

@@ -30,11 +30,11 @@ from orderconds.words.shuffle import Series, Word
 
 
 def iterated_integral(word: Word) -> Fraction:
-    """Return the coefficient of the word k_1 ... k_n, the product X_{k_n} ... X_{k_1}, in Y(1).
+    """Return the coefficient of a word in Y(1), where Y solves Y' = A(t) Y with Y(0) = I.
 
-    Y solves Y' = A(t) Y with Y(0) = I, where A(t) = X_1 + t X_2 + t^2 X_3 + .... The coefficient is the
-    integral of s_1^(k_1-1) ... s_n^(k_n-1) over 0 < s_1 < ... < s_n < 1. The integral equals the product of
-    1/(k_1 + ... + k_j) over j = 1, ..., n.
+    Here A(t) = X_1 + t X_2 + t^2 X_3 + .... The word (k_1, ..., k_n) denotes the product X_{k_n} ... X_{k_1}.
+    The coefficient is the integral of s_1^(k_1-1) ... s_n^(k_n-1) over 0 < s_1 < ... < s_n < 1. The integral
+    equals the product of 1/(k_1 + ... + k_j) over j = 1, ..., n.
 
     >>> str(iterated_integral((1, 2)))
     '1/3'
