@@ -33,7 +33,7 @@
  *             n1
  *             12 add, 18 mul at the start of a run, 12 add, 9 mul at the end of a run
  * stack:      at most 7168 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64; 1264 of these
- *             bytes are a safety margin; mathematical library functions use more
+ *             bytes are a safety margin; math library functions need extra bytes
  * command:    orderconds emit dipole --method vcg:triple_jump --target c -o .
  * version:    orderconds 0.1.0
  *
@@ -296,8 +296,8 @@ static void dipole_vcg_triple_jump_count_matrix(dipole_vcg_triple_jump_statistic
  * Let d_0, ..., d_order be the coefficients of the backward difference of the given order. Let u_0 be
  * the latest stored solution, and let u_k be the solution k steps earlier. If first = 0 and sign = 1,
  * compute sum = d_0 u_0 + d_1 u_1 + ... + d_order u_order, the backward difference. If first = 1 and
- * sign = -1, sum is the extrapolated solution of the next step: the backward difference of sum, u_0,
- * ..., u_(order-1) is zero.
+ * sign = -1, compute sum = -(d_1 u_0 + d_2 u_1 + ... + d_order u_(order-1)), the extrapolated solution
+ * of the next step.
  */
 static inline void dipole_vcg_triple_jump_difference(const struct dipole_vcg_triple_jump_memory *memory,
     size_t order, size_t first, double sign, double sum[static 3])
@@ -565,7 +565,7 @@ static inline int dipole_vcg_triple_jump_substep(double state[static 12], double
     const double new_mu0 = s_mu_0_seen + xi1_2 * w54 * d_xi1_1 + xi1_1 * w54 * d_xi1_2;
     const double new_mu1 = s_mu_1_seen - d_xi1_0 * xe1_2 - d_xi1_2 * xe1_0;
     const double new_mu2 = s_mu_2_seen + xi1_1 * w55 * d_xi1_0 + xi1_0 * w55 * d_xi1_1;
-    /* The sum of finite x may overflow, but x - x is 0. If x is not finite, x - x is NaN. */
+    /* Are all x finite? If their sum overflows, test x - x: 0 if x is finite, else NaN. */
     if (!isfinite(new_g00 + new_g01 + (new_g02 + new_g10) + (new_g11 + new_g12)
         + (new_g20 + new_g21) + (new_g22 + new_mu0) + (new_mu1 + new_mu2)) && !(new_g00
         - new_g00 + (new_g01 - new_g01) + (new_g02 - new_g02 + (new_g10 - new_g10))

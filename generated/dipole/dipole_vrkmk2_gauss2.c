@@ -32,7 +32,7 @@
  *             equations of v1, v2, m1, m2
  *             12 add, 18 mul at the start of a run, 12 add, 9 mul at the end of a run
  * stack:      at most 7360 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64; 1280 of these
- *             bytes are a safety margin; mathematical library functions use more
+ *             bytes are a safety margin; math library functions need extra bytes
  * command:    orderconds emit dipole --method 'vrkmk(2):gauss2' --target c -o .
  * version:    orderconds 0.1.0
  *
@@ -381,8 +381,8 @@ static void dipole_vrkmk2_gauss2_count_matrix(dipole_vrkmk2_gauss2_statistics *s
  * Let d_0, ..., d_order be the coefficients of the backward difference of the given order. Let u_0 be
  * the latest stored solution, and let u_k be the solution k steps earlier. If first = 0 and sign = 1,
  * compute sum = d_0 u_0 + d_1 u_1 + ... + d_order u_order, the backward difference. If first = 1 and
- * sign = -1, sum is the extrapolated solution of the next step: the backward difference of sum, u_0,
- * ..., u_(order-1) is zero.
+ * sign = -1, compute sum = -(d_1 u_0 + d_2 u_1 + ... + d_order u_(order-1)), the extrapolated solution
+ * of the next step.
  */
 static inline void dipole_vrkmk2_gauss2_difference(const struct dipole_vrkmk2_gauss2_memory *memory,
     size_t order, size_t first, double sign, double sum[static 6])
@@ -861,7 +861,7 @@ static inline int dipole_vrkmk2_gauss2_advance(double state[static 12], double h
     const double new_g20 = g20 * g_0 + g21 * g_3 + g22 * g_6;
     const double new_g21 = g20 * g_1 + g21 * g_4 + g22 * g_7;
     const double new_g22 = g20 * g_2 + g21 * g_5 + g22 * g_8;
-    /* The sum of finite x may overflow, but x - x is 0. If x is not finite, x - x is NaN. */
+    /* Are all x finite? If their sum overflows, test x - x: 0 if x is finite, else NaN. */
     if (!isfinite(new_g00 + new_g01 + (new_g02 + new_g10) + (new_g11 + new_g12)
         + (new_g20 + new_g21) + (new_g22 + w128) + (w130 + w132)) && !(new_g00 - new_g00
         + (new_g01 - new_g01) + (new_g02 - new_g02 + (new_g10 - new_g10))

@@ -15,8 +15,8 @@
  *             the time is not needed: no formula depends on the time
  *             a solver for implicit equations: all stages are explicit
  * operations: 23 add, 48 mul, 5 signed_stumpff0, 5 signed_stumpff1 a step
- * stack:      at most 832 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64; mathematical
- *             library functions use more
+ * stack:      at most 832 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64; math library
+ *             functions need extra bytes
  * command:    orderconds emit duffing_sl2 --method cf4 --target c -o .
  * version:    orderconds 0.1.0
  *
@@ -220,7 +220,7 @@ static int duffing_sl2_cf4_loop(double state[static 2], double h, size_t steps,
         const double w26 = duffing_sl2_cf4_signed_stumpff1(w23);
         const double new_z0 = w21 * w24 + x_2_0 * w26 * w25;
         const double new_z1 = w22 * w26 * w21 + w24 * w25;
-        /* The sum of finite x may overflow, but x - x is 0. If x is not finite, x - x is NaN. */
+        /* Are all x finite? If their sum overflows, test x - x: 0 if x is finite, else NaN. */
         if (isfinite(new_z0 + new_z1) || new_z0 - new_z0 + (new_z1 - new_z1) == 0.0) {
             z0 = new_z0;
             z1 = new_z1;

@@ -21,8 +21,8 @@
  * operations: 201 add, 335 mul, 6 stumpff_12 a step
  *             2 add, 4 mul once in each run
  *             9 add, 21 mul, 1 stumpff_12 once in each run
- * stack:      at most 3008 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64; mathematical
- *             library functions use more
+ * stack:      at most 3008 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64; math library
+ *             functions need extra bytes
  * command:    orderconds emit fast_heavy_top --method splitting:blanes_moan_rkn4 --target c -o .
  * version:    orderconds 0.1.0
  *

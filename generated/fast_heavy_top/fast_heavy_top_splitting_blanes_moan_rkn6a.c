@@ -21,8 +21,8 @@
  * operations: 473 add, 786 mul, 14 stumpff_12 a step
  *             29 add, 49 mul, 1 stumpff_12 once in each run
  *             9 add, 21 mul, 1 stumpff_12 once in each run
- * stack:      at most 4800 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64; mathematical
- *             library functions use more
+ * stack:      at most 4800 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64; math library
+ *             functions need extra bytes
  * command:    orderconds emit fast_heavy_top --method splitting:blanes_moan_rkn6a --target c -o .
  * version:    orderconds 0.1.0
  *

@@ -16,8 +16,8 @@
  *             the time is not needed: no formula depends on the time
  *             a solver for implicit equations: all stages are explicit
  * operations: 89 add, 149 mul, 5 stumpff_12 a step
- * stack:      at most 1216 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64; mathematical
- *             library functions use more
+ * stack:      at most 1216 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64; math library
+ *             functions need extra bytes
  * command:    orderconds emit free_rigid_body --method cf4 --target c -o .
  * version:    orderconds 0.1.0
  *
@@ -232,7 +232,7 @@ static int free_rigid_body_cf4_loop(double state[static 3], double h, size_t ste
         const double new_m0 = w63 + w71 * c1_5 + (w65 * w73 - w66 * w74) * c2_5;
         const double new_m1 = w70 + w74 * c1_5 + (w66 * w71 - w64 * w73) * c2_5;
         const double new_m2 = w69 + w73 * c1_5 + (w64 * w74 - w65 * w71) * c2_5;
-        /* The sum of finite x may overflow, but x - x is 0. If x is not finite, x - x is NaN. */
+        /* Are all x finite? If their sum overflows, test x - x: 0 if x is finite, else NaN. */
         if (isfinite(new_m0 + new_m1 + new_m2) || new_m0 - new_m0 + (new_m1 - new_m1)
             + (new_m2 - new_m2) == 0.0) {
             m0 = new_m0;

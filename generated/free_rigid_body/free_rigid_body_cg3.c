@@ -15,8 +15,8 @@
  *             the time is not needed: no formula depends on the time
  *             a solver for implicit equations: all stages are explicit
  * operations: 84 add, 161 mul, 6 stumpff_12 a step
- * stack:      at most 1152 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64; mathematical
- *             library functions use more
+ * stack:      at most 1152 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64; math library
+ *             functions need extra bytes
  * command:    orderconds emit free_rigid_body --method cg:cg3 --target c -o .
  * version:    orderconds 0.1.0
  *
@@ -226,7 +226,7 @@ static int free_rigid_body_cg3_loop(double state[static 3], double h, size_t ste
         const double new_m0 = w34 - w63 * c1_6 - (w57 * w65 + w58 * w66) * c2_6;
         const double new_m1 = w62 + w66 * c1_6 - (w58 * w63 + w56 * w65) * c2_6;
         const double new_m2 = w61 + w65 * c1_6 + (w56 * w66 - w57 * w63) * c2_6;
-        /* The sum of finite x may overflow, but x - x is 0. If x is not finite, x - x is NaN. */
+        /* Are all x finite? If their sum overflows, test x - x: 0 if x is finite, else NaN. */
         if (isfinite(new_m0 + new_m1 + new_m2) || new_m0 - new_m0 + (new_m1 - new_m1)
             + (new_m2 - new_m2) == 0.0) {
             m0 = new_m0;

@@ -18,8 +18,8 @@
  *             the time is not needed: no formula depends on the time
  *             a solver for implicit equations: all stages are explicit
  * operations: 101 add, 164 mul, 4 stumpff_12 a step
- * stack:      at most 1152 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64; mathematical
- *             library functions use more
+ * stack:      at most 1152 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64; math library
+ *             functions need extra bytes
  * command:    orderconds emit free_rigid_body --method 'rkmk(2):rk4' --target c -o .
  * version:    orderconds 0.1.0
  *
@@ -228,7 +228,7 @@ static int free_rigid_body_rkmk2_rk4_loop(double state[static 3], double h, size
         const double new_m0 = m0 + w34 * c1_4 + (u_1 * w36 - u_2 * w37) * c2_4;
         const double new_m1 = m1 + w37 * c1_4 + (u_2 * w34 - u_0 * w36) * c2_4;
         const double new_m2 = m2 + w36 * c1_4 + (u_0 * w37 - u_1 * w34) * c2_4;
-        /* The sum of finite x may overflow, but x - x is 0. If x is not finite, x - x is NaN. */
+        /* Are all x finite? If their sum overflows, test x - x: 0 if x is finite, else NaN. */
         if (isfinite(new_m0 + new_m1 + new_m2) || new_m0 - new_m0 + (new_m1 - new_m1)
             + (new_m2 - new_m2) == 0.0) {
             m0 = new_m0;

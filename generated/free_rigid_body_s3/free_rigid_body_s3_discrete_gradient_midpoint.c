@@ -21,7 +21,7 @@
  *             of the equations of xi
  *             148 add, 240 mul, 3 quotient, 2 stumpff_01 for each sweep of the equations of xi
  * stack:      at most 8192 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64; 1480 of these
- *             bytes are a safety margin; mathematical library functions use more
+ *             bytes are a safety margin; math library functions need extra bytes
  * command:    orderconds emit free_rigid_body_s3 --method discrete_gradient:midpoint --target c -o
  *             .
  * version:    orderconds 0.1.0
@@ -335,8 +335,8 @@ static void free_rigid_body_s3_discrete_gradient_midpoint_count_matrix(free_rigi
  * Let d_0, ..., d_order be the coefficients of the backward difference of the given order. Let u_0 be
  * the latest stored solution, and let u_k be the solution k steps earlier. If first = 0 and sign = 1,
  * compute sum = d_0 u_0 + d_1 u_1 + ... + d_order u_order, the backward difference. If first = 1 and
- * sign = -1, sum is the extrapolated solution of the next step: the backward difference of sum, u_0,
- * ..., u_(order-1) is zero.
+ * sign = -1, compute sum = -(d_1 u_0 + d_2 u_1 + ... + d_order u_(order-1)), the extrapolated solution
+ * of the next step.
  */
 static inline void free_rigid_body_s3_discrete_gradient_midpoint_difference(const struct free_rigid_body_s3_discrete_gradient_midpoint_memory *memory,
     size_t order, size_t first, double sign, double sum[static 3])
@@ -1080,7 +1080,7 @@ static inline int free_rigid_body_s3_discrete_gradient_midpoint_advance(double s
     const double Y_1_ = q3 * w475 - q2 * w476 + (q0 * w474 + q1 * c0_3);
     const double Y_2_ = q1 * w476 - q3 * w474 + (q0 * w475 + q2 * c0_3);
     const double Y_3_ = q2 * w474 - q1 * w475 + (q0 * w476 + q3 * c0_3);
-    /* The sum of finite x may overflow, but x - x is 0. If x is not finite, x - x is NaN. */
+    /* Are all x finite? If their sum overflows, test x - x: 0 if x is finite, else NaN. */
     if (!isfinite(Y_0_ + Y_1_ + (Y_2_ + Y_3_)) && !(Y_0_ - Y_0_ + (Y_1_ - Y_1_)
         + (Y_2_ - Y_2_ + (Y_3_ - Y_3_)) == 0.0)) {
         return FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_NOT_FINITE;

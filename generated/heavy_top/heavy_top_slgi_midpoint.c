@@ -19,7 +19,7 @@
  *             73 add, 111 mul, 1 stumpff_123, 1 stumpff_23 for each sweep of the equations of xi1,
  *             n1
  * stack:      at most 6336 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64; 1120 of these
- *             bytes are a safety margin; mathematical library functions use more
+ *             bytes are a safety margin; math library functions need extra bytes
  * command:    orderconds emit heavy_top --method slgi:midpoint --target c -o .
  * version:    orderconds 0.1.0
  *
@@ -431,8 +431,8 @@ static void heavy_top_slgi_midpoint_count_matrix(heavy_top_slgi_midpoint_statist
  * Let d_0, ..., d_order be the coefficients of the backward difference of the given order. Let u_0 be
  * the latest stored solution, and let u_k be the solution k steps earlier. If first = 0 and sign = 1,
  * compute sum = d_0 u_0 + d_1 u_1 + ... + d_order u_order, the backward difference. If first = 1 and
- * sign = -1, sum is the extrapolated solution of the next step: the backward difference of sum, u_0,
- * ..., u_(order-1) is zero.
+ * sign = -1, compute sum = -(d_1 u_0 + d_2 u_1 + ... + d_order u_(order-1)), the extrapolated solution
+ * of the next step.
  */
 static inline void heavy_top_slgi_midpoint_difference(const struct heavy_top_slgi_midpoint_memory *memory,
     size_t order, size_t first, double sign, double sum[static 6])
@@ -857,7 +857,7 @@ static inline int heavy_top_slgi_midpoint_advance(double state[static 12], doubl
     const double new_g21 = g01 * g_6 + g11 * g_7 + g21 * g_8;
     const double new_g22 = g02 * g_6 + g12 * g_7 + g22 * g_8;
     const double new_mu2 = mu0 * g_6 + mu1 * g_7 + mu2 * g_8 + w118;
-    /* The sum of finite x may overflow, but x - x is 0. If x is not finite, x - x is NaN. */
+    /* Are all x finite? If their sum overflows, test x - x: 0 if x is finite, else NaN. */
     if (!isfinite(new_g00 + new_g01 + (new_g02 + new_g10) + (new_g11 + new_g12)
         + (new_g20 + new_g21) + (new_g22 + mu1_0) + (mu1_1 + new_mu2)) && !(new_g00 - new_g00
         + (new_g01 - new_g01) + (new_g02 - new_g02 + (new_g10 - new_g10))

@@ -5,8 +5,8 @@
  * order:      1
  * state:      [0..2] m: angular momentum in the body
  * operations: 14 add, 26 mul, 1 stumpff_12 a step
- * stack:      at most 704 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64; mathematical
- *             library functions use more
+ * stack:      at most 704 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64; math library
+ *             functions need extra bytes
  * command:    none
  * version:    orderconds test
  *
@@ -156,7 +156,7 @@ static int rigid_loop(double state[static 3], double h, size_t steps, double *tr
         const double new_m0 = m0 + v0 * c1_1 + (w1 * v2 - w2 * v1) * c2_1;
         const double new_m1 = m1 + v1 * c1_1 + (w2 * v0 - w0 * v2) * c2_1;
         const double new_m2 = m2 + v2 * c1_1 + (w0 * v1 - w1 * v0) * c2_1;
-        /* The sum of finite x may overflow, but x - x is 0. If x is not finite, x - x is NaN. */
+        /* Are all x finite? If their sum overflows, test x - x: 0 if x is finite, else NaN. */
         if (isfinite(new_m0 + new_m1 + new_m2) || new_m0 - new_m0 + (new_m1 - new_m1)
             + (new_m2 - new_m2) == 0.0) {
             m0 = new_m0;
