@@ -137,7 +137,7 @@ class _Builder:
 
     The matrix B is called the basis of the step (:mod:`codegen.ir.array_step`). An element of the algebra has
     the form B S B^T, where the matrix S is called its core. A point has the form X_0 + B D with the old state
-    X_0 and the displacement D.
+    X_0 and the displacement D. If S or D has only m rows, B denotes the first m columns of the basis.
     """
 
     program: Program
