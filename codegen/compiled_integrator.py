@@ -202,8 +202,8 @@ class _Buffers:
         self.size, self.null = size, ffi.NULL
         self.events: list[tuple[int, float, int, list[float]]] = []
         # Let n be the number of event functions. Each call of these functions empties the arrays, and then
-        # the C code stores at most n events. The run continues only if n entries are still free. Therefore
-        # the arrays have 2 n entries.
+        # the C code stores at most n events. After that, n entries must still be free, because otherwise the
+        # C code ends the run. Therefore the arrays have n + n = 2 n entries.
         self.room = 2 * interface.events
 
         def write(t: float, state: Any, array: Any, data: Any) -> None:

@@ -85,15 +85,15 @@ def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int,
         inside = [ranks[a.id] for a in node.args if a.id in ranks]
         root = _is_inverse(node) and node.args[1].op == "call" and node.args[1].payload == "sqrt"
         if root and node.id not in still:
-            # A pair in ``ranks`` is (node number of y, exponent). This node is y, so the exponent is 1.
+            # ``ranks`` contains (node number of y, n) for y^n, where y = 1/sqrt x. Here ``node`` is y = y^1.
             ranks[node.id] = (node.id, 1)
         elif _is_power(node, inside):
             # Exponents are added in a product, and multiplied in a power of a power.
             exponent = sum(n for _, n in inside)
             ranks[node.id] = (inside[0][0], exponent * (node.payload or 1))
-    # Each node in ``ranks`` has the form c y^n, where c is a number and y is a node 1/sqrt x. The dictionary
-    # ``ranks`` maps this node to the pair (node number of y, n). The set ``read`` contains the pairs of those
-    # nodes in ``ranks`` that are elements of ``roots``, or arguments of nodes outside ``ranks``.
+    # Let c be a number, and y = 1/sqrt x. For each node c y^n that was found, ``ranks`` contains the pair
+    # (node number of y, n). The set ``read`` contains this pair in two cases: c y^n is an element of
+    # ``roots``, or c y^n is an argument of a node that has no pair in ``ranks``.
     read = {ranks[x.id] for x, by in used if x.id in ranks and (by is None or by.id not in ranks)}
     # If a pair in ``read`` belongs to y itself or to an even power of y, no power of y is rewritten as a
     # quotient. ``bases`` contains the node numbers of these nodes y.

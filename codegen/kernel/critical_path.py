@@ -209,8 +209,8 @@ class _Chains:
                 return _scaled(
                     self._sum(b, level), 1, *((factor, one) if self.fixed[a.id] else (one, factor))
                 )
-        # ``node`` is not expanded. The result is the single product s k v c with s = k = v = 1, where c is
-        # the expression that replaces ``node`` (:data:`Sum`).
+        # ``node`` is not expanded. The result is a sum with a single term: the expression that replaces
+        # ``node``, times the factors 1, 1 and 1 (:data:`Sum`).
         return {self.new[node.id]: (1, one, one)}
 
     def _joined(self, a: tuple[int, Expr, Expr], b: tuple[int, Expr, Expr]) -> tuple[int, Expr, Expr]:

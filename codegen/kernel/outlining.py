@@ -86,9 +86,9 @@ class Outline:
             if not chosen:
                 return None
             rewritten_roots, shapes = self._called(roots, chosen)
-            # The call for a tree reads all inputs of the tree. An input x may be absent from ``roots``,
-            # because these expressions are simplified (for example, x - x to 0). Emitted code does not
-            # compute x in this case, so the tree is not replaced by a call.
+            # The call for a tree reads all inputs of the tree. In the expressions ``roots``, an input x can
+            # be missing, for example because x - x was simplified to 0. Emitted code does not compute missing
+            # inputs, so a tree with a missing input is not replaced by a call.
             added = _symbols(rewritten_roots) - _symbols(roots)
             if added:
                 called = [tree for alike in chosen.values() for tree in alike]

@@ -234,7 +234,8 @@ def _outside(statement: Let | Start | Loop) -> Sequence[Expr]:
     if isinstance(statement, Let):
         return [statement.value]
     # The result contains the expressions that every step computes outside loops. For a :class:`Loop`, these
-    # are the starting values of the unknowns. A :class:`Start` has none, because some steps skip it.
+    # are the starting values of the unknowns. For a :class:`Start`, the result is empty, because only some
+    # steps compute the expressions of a :class:`Start`.
     return statement.starts if isinstance(statement, Loop) else []
 
 

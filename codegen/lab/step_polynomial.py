@@ -173,10 +173,10 @@ class _Signs:
 
         All functions must be non-negative at t + a. The result is one of the following:
 
-        - True: at least one function is negative at t + b. A function that becomes negative on the
-          subinterval is monotone on the subinterval, so it changes its sign only once.
+        - True: two facts are proved. At least one function is negative at t + b. Each function that becomes
+          negative on the subinterval is monotone there, and therefore changes its sign only once.
         - False: all functions are non-negative from t + a to t + b.
-        - None: neither is proved, so the caller must bisect the subinterval.
+        - None: neither True nor False is proved, so the caller must bisect the subinterval.
 
         Raises :class:`Undecided` if a negative function is so small that its sign can be a rounding error.
         """
@@ -216,10 +216,11 @@ class _Signs:
         return [k for k, x in enumerate(values) if not x >= -self.limits[k]]
 
     def _expansions(self, state: tuple[arb_poly, ...], tau: Scalar) -> list[list[arb]]:
-        """Return the power series of the functions that ``self.series`` computes, up to degree DEGREE.
+        """Return Taylor coefficients of the functions that ``self.series`` computes, up to degree DEGREE.
 
-        The power series are in powers of x at the time t + ``tau`` + x, where the step starts at the time t.
-        The polynomials ``state`` in x give the state at the time t + ``tau`` + x.
+        Let t be the time at the beginning of the step. Each function is expanded about the time t + ``tau``.
+        The variable x of the expansion is the time since t + ``tau``. ``state`` contains the coordinates of
+        the state as polynomials in x.
         """
         with _truncated(DEGREE + 1):
             try:

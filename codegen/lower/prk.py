@@ -103,12 +103,12 @@ class PartitionedLowering(Lowering):
                 # If the velocity does not depend on positions, its values at ``q`` and ``Q`` are equal, so
                 # ``q`` can replace ``Q``.
                 if not by_position:
-                    # With ``q`` in place of ``Q``, the velocity depends on fewer unknowns.
+                    # ``q`` is known, but ``Q`` can depend on unknown velocities.
                     v, _ = build.hamilton(f"v{number}", "unused", q, P, *time)
-                # If the force does not depend on momenta, its values at ``mu`` and ``P`` are equal.
+                # If the force does not depend on momenta, its values at ``mu`` and ``P`` are equal, so ``mu``
+                # can replace ``P``.
                 if not by_momentum:
-                    # This force does not depend on the momentum, so ``mu`` can replace ``P``. With ``mu``,
-                    # the force depends on fewer unknowns.
+                    # ``mu`` is known, but ``P`` can depend on unknown forces.
                     _, f = build.hamilton("unused", f"f{number}", Q, mu, *time)
                 velocities.append(v)
                 forces.append(f)

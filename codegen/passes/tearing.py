@@ -47,9 +47,10 @@ def _without(block: Solve, unknown: Var) -> Solve | None:
     The unknown is replaced by its image, the right-hand side of its equation.
     """
     image = dict(zip(block.unknowns, block.images, strict=True))[unknown]
-    # A block needs at least one unknown. The variable ``image`` must remain in the program, because the
-    # program uses ``image`` in place of ``unknown``. An unknown may be removed later, so ``image`` must not
-    # be an unknown.
+    # ``unknown`` is not removed in two cases:
+    # - ``unknown`` is the only unknown of the block. A block needs at least one unknown.
+    # - ``image`` is itself an unknown. A later call could remove ``image``, but the program would still read
+    #   ``image`` in place of ``unknown``.
     if len(block.unknowns) == 1 or image in block.unknowns:
         return None
 

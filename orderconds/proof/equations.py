@@ -63,8 +63,9 @@ class Equations:
     letters: int | None = None
     """If the value is an integer s, only conditions for words in the letters 1, ..., s are used."""
     kept: tuple[OrderCondition, ...] | None = None
-    """A selection of the conditions of the main method. Only the selected conditions become equations. None
-    means that no selection is made."""
+    """The conditions of the main method that become equations. If the value is None, ``proof.reduction`` and
+    ``letters`` determine the equations. If there is no reduction either, all independent conditions up to the
+    order ``proof.order`` become equations."""
     lower: tuple[OrderCondition, ...] = ()
     """The conditions of the embedded method of a low-storage (2N) scheme. In the list of equations, these
     conditions follow the conditions of the scheme."""

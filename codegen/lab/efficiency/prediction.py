@@ -187,12 +187,11 @@ class Bar:
 
         - ``step_seconds``, the predicted CPU time of one step, exceeds ``self.seconds``.
         - The method is implicit, and ``self.explicit`` is True.
-        - The methods of the higher orders p + 1 and p + 2 are too inaccurate. Let e be the smallest predicted
-          error of these methods in a run of ``self.seconds`` seconds of CPU time. A method of order p is
-          assumed to have an error of at least e/FAR (:data:`FAR`), and is excluded if e/FAR exceeds
-          ``self.error``. The number e comes from the triple (``family``, ``explicit``, e) in ``self.least``.
-          If this triple is missing, the triple ('', ``explicit``, e) for all families is used. If that triple
-          is missing, too, this case does not apply.
+        - The assumed lower bound e/FAR (:data:`FAR`) for the error of the method exceeds ``self.error``. The
+          number e is the smallest predicted error of methods of the higher orders p + 1 and p + 2, in a run
+          of ``self.seconds`` seconds of CPU time. The number e comes from the triple (``family``,
+          ``explicit``, e) in ``self.least``. If this triple is missing, the triple ('', ``explicit``, e) for
+          all families is used. If that triple is missing, too, this case does not apply.
         """
         if step_seconds > self.seconds or (self.explicit and not explicit):
             return True

@@ -63,8 +63,9 @@ class Recommendation:
 
     - ``places``: for each successful recipe, the fastest run with at most the required error. Fast runs
       come first.
-    - ``best``: None if ``places`` is not empty. Otherwise, the most accurate run of a recipe that meets
-      ``request.needs`` and ``request.stack``, or None if no measured recipe meets them.
+    - ``best``: if no recipe is successful, the most accurate run of a recipe that meets ``request.needs`` and
+      ``request.stack``, or None if no measured recipe meets them. If ``places`` contains a run, ``best`` is
+      not needed and is None.
     - ``predicted``: the number of predicted recipes.
     - ``raced``: the number of measured recipes.
     - ``seconds``: the time of the search in seconds.

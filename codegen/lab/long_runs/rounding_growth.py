@@ -37,7 +37,7 @@ STARTS = 16
 """The number of runs. The runs have different initial states on one trajectory."""
 
 APART = 37
-"""The number of steps on this trajectory between the initial states of consecutive runs."""
+"""APART steps lead from the initial state of one run to the initial state of the next run."""
 
 TIMES = 9
 """The number of measurements in a run. The number of steps doubles from one measurement to the next."""

@@ -65,9 +65,9 @@ class Noise:
 
         ``gaps`` contains the error of each coordinate. For each coordinate, the function takes the smaller of
         two numbers: an estimate of the rounding error, and the error in ``gaps``. The result is the Euclidean
-        norm of the smaller numbers. The norm of the estimates alone would be too large, because the estimate
-        for a large coordinate is large even if this coordinate has no error. The errors of small coordinates
-        would then be mistaken for rounding errors.
+        norm of the smaller numbers. The norm of the estimates alone is not used, because the estimate for a
+        large coordinate is large even if this coordinate has no error. This estimate could exceed the errors
+        of the small coordinates, and these errors would then be mistaken for rounding errors.
         """
         return math.hypot(
             *(min(gap, rounding(steps, self.epsilon, x)) for gap, x in zip(gaps, self.sizes, strict=True))

@@ -110,7 +110,8 @@ class Refinement:
         If there is no slope, the verdict is ``undecided``. If the slopes have settled (:attr:`settled`), the
         first rule that applies gives the verdict:
 
-        - ``fails`` if s is above :data:`ZERO` and below ``stated``,
+        - ``fails`` if s is below ``stated`` and s > 0.5 (an s near 0 can come from rounded coefficients, see
+          :data:`ZERO`),
         - ``holds`` if p equals ``stated``,
         - ``holds`` if s equals ``stated`` and p is above ``stated``,
         - ``undecided`` if s equals ``stated`` and p is below ``stated``,

@@ -43,7 +43,8 @@ from codegen.snippets.graph import LIBRARY
 MANY = 20
 """If more than ``MANY`` short statements follow each other, several statements are printed on each line."""
 
-ONE_TEST = "Are all x finite? If their sum overflows, test x - x: 0 if x is finite, else NaN."
+ONE_TEST = "All x are finite if their sum is finite or, after overflow, if each x - x is 0."
+"""The comment before a test that all x are finite. If x is not finite, x - x is NaN."""
 
 
 class FunctionPrinter:

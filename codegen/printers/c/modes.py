@@ -103,7 +103,7 @@ def print_modes(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[st
         "factors": [write.factor(f, lambda function, w: f"{calls[function]}({w})") for f in step.factors],
         "tables": [write.table(table) for table in step.tables],
         "local": _local(step),
-        # An unused temporary spectrum would cause a compiler warning.
+        # ``spare`` decides whether C declares ``spectrum``: an unused variable would cause a warning.
         "spare": bool(inner) or len(outer) > 1,
         "functions": {factor.function for factor in step.factors},
         "inner": [(order, names[s]) for order, s in inner],
