@@ -84,7 +84,9 @@ def _may_raise(kernel: Kernel) -> bool:
 def _calls_library(kernel: Kernel) -> bool:
     """Return True if a kernel calls other functions than the Stumpff functions.
 
-    The Stumpff functions of emitted Python return an infinity or a NaN, and raise no exception.
+    In emitted Python, other functions may raise an exception, for example sin(x) for infinite x. The loop
+    over the steps must then catch exceptions. A Stumpff function c_k(z) raises no exception: if abs(z) is too
+    large, the value is an infinity or a NaN.
     """
     arithmetic = ("const", "sym", "neg", "add", "sub", "mul", "pow")
     return bool(kernel.outlined) or any(

@@ -337,7 +337,10 @@ class Logarithm(Unary):
         return Place.MATRIX
 
     def closed_forms(self) -> Iterator[MatrixFormula]:
-        """Yield this logarithm, which is computed by a closed form, and then ``of.closed_forms()``."""
+        """Yield the exponentials and logarithms in this formula that are computed by closed forms.
+
+        The first of them is this logarithm.
+        """
         yield self
         yield from super().closed_forms()
 

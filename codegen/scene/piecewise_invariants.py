@@ -43,8 +43,8 @@ BESIDE = Fraction(1, 10**26)
 for example abs(x). One test point is on each side of the zero. If an invariant has a jump at the zero, the
 values of the invariant at the two test points are different.
 
-The distance is much larger than rounding errors of 40 digits. Between the two points, a continuous function
-usually changes by much less than :data:`codegen.scene.orbit.TOLERANCE`.
+The distance is much larger than the rounding errors of arithmetic with 40 digits. Between the two points, a
+continuous function usually changes by much less than :data:`codegen.scene.orbit.TOLERANCE`.
 """
 
 
@@ -129,15 +129,18 @@ class _Check:
             return
         formulas = [f for f in _formulas(x) if f.op != "const"]
         if not formulas:
-            return  # ``x`` is always one of several constants. ``run`` checks the selections in ``x``.
+            # ``x`` is piecewise constant, for example choose(y, 1, -1), and changes only where a selection in
+            # ``x`` switches. ``run`` calls this method for the selections in ``x``, too.
+            return
         compared = False
         usual = [v[0] for point in self.orbit.points if (v := self.orbit.values((root,), point)) is not None]
         for point, formula in product(self.orbit.points, formulas):
             sides = self.beside(formula, point)
             values = [self.orbit.values((root, x), place) for place in sides]
             pairs = [v for v in values if v is not None]
-            # If ``x`` is a selection, it equals ``formula`` only in one case. In the other cases, ``x`` has
-            # the same sign at both points, and ``node`` does not change its case there.
+            # If ``x`` is choose(y, a, b) and ``formula`` is a, a zero of a is a zero of ``x`` only for y > 0.
+            # If ``x`` has the same sign at both points, ``node`` does not switch between the two points, and
+            # the points are skipped.
             if len(pairs) < 2 or (formula is not x and (pairs[0][1].value > 0) == (pairs[1][1].value > 0)):
                 continue
             compared = True
@@ -186,15 +189,19 @@ def _formulas(x: Expr) -> list[Expr]:
     """
     if x.op != "call" or x.payload not in SELECTING:
         return [x]
-    # The formulas c and -c of ``fabs(c)`` have the same zeros.
+    # For choose(a, b, c), ``args[1:]`` is (b, c). For fabs(c), ``args`` is (c,). The formula -c of fabs(c) is
+    # omitted, because c and -c have the same zeros.
     return [f for arg in (x.args[1:] or x.args) for f in _formulas(arg)]
 
 
 def _contradictory(margins: Sequence[Expr]) -> bool:
-    """Return True if one margin is a negative constant, or if a + c b <= 0 for two margins a, b and c > 0.
+    """Return True if one of two tests proves that no state exists at which all margins are positive.
 
-    In both cases, no state exists at which all margins are positive. For example, the margins x - 2 and 1 - x
-    have the sum -1. If the result is False, such a state may exist.
+    - Is one margin a negative constant?
+    - Are there two margins p and q, and a number c > 0, such that p + c*q is a constant <= 0? For example,
+      p = x - 2 and q = 1 - x have the sum -1.
+
+    If the result is False, a state at which all margins are positive may exist.
     """
     known: list[tuple[dict[Monomial, Fraction], Fraction]] = []
     for margin in margins:

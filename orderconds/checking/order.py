@@ -138,7 +138,7 @@ def family_order(
     - ``proved``: maps the labels of other families to proved orders. Conditions that follow from the proved
       orders are not evaluated (:mod:`orderconds.families.reductions`).
     - ``brief``: if true, the search ends at the order ``bound.order``. If all conditions up to this order
-      hold, the failing conditions in the result are those of ``bound``.
+      hold, ``failing`` in the result is ``bound.failing``: conditions of order ``bound.order + 1``.
     - ``meter``: counts the evaluated conditions. The search ends if a limit on the work is reached.
 
     >>> from orderconds.families import get

@@ -43,9 +43,9 @@ class BracketProgram:
     - ``stages``: the rows of u_1, ..., u_s.
     - ``update``: the row of u.
     - ``least``: a lower bound for the number of brackets in every program that computes the arguments.
-    - ``grades``: integers g_1, ..., g_s with h q_j = O(h^(g_j)), where q_j is k_j plus a linear combination
-      of k_1, ..., k_(j-1). The combination is chosen to make g_j as large as possible. Each g_j is limited
-      by the order of the method.
+    - ``grades``: integers g_1, ..., g_s. Choose the numbers c_1, ..., c_(j-1) such that
+      h (c_1 k_1 + ... + c_(j-1) k_(j-1) + k_j) = O(h^g), with g as large as possible, but at most the order
+      of the method. Then g_j = g.
 
     >>> from orderconds.ring import QQ
     >>> euler = BracketProgram((), ({},), {("k", 0): QQ.one}, 0, (1,))

@@ -16,10 +16,10 @@ from orderconds.solve.spec import Spec, refuse
 from orderconds.solve.tableau_ansatz import tableau_structures
 
 MIRRORED = (
-    "Y_1, ..., Y_m are the exponents of the update, and Y_(m+1-J) is Y_J with the coefficients in reverse "
-    "order; the last exponents of stage i are X_i1, X_i2, ...; if j = s + 1 - i, where s is the number of "
-    "stages, then X_jr is -X_ir with the coefficients in reverse order; if m and s are odd, stage "
-    "i = (s+1)/2 has the exponent (1/2) Y_((m+1)/2) directly before X_i1"
+    "Y_1, ..., Y_m are the exponents of the update; X_i1, X_i2, ... are the exponents of stage i after the "
+    "first k_i; bar Z is the exponent with the coefficients of Z in reverse order; Y_(m+1-J) = bar Y_J for "
+    "all J; X_jr = -bar X_ir for j = s + 1 - i and all r, where s is the number of stages; if m and s are "
+    "odd, the middle stage i = (s+1)/2 has (1/2) Y_((m+1)/2) as an additional exponent directly before X_i1"
 )
 """The assumptions about symmetric methods (:mod:`orderconds.solve.paths`)."""
 

@@ -241,8 +241,7 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
                     raise TableauError(
                         f"for some quadratic Lie groups, exponent number {k + 1} is not in the Lie algebra",
                         where=f"{self.name}: exponents[{k + 1}]",
-                        expected="a sum in which each product and the product in reverse order have opposite "
-                        "coefficients for an even number of factors, such as A*B - B*A, and equal "
-                        "coefficients for an odd number of factors, such as A*B*C + C*B*A",
+                        expected="a linear combination of A, A*B - B*A, A*B*C + C*B*A, A*B*C*D - D*C*B*A, "
+                        "..., where each letter denotes the matrix A(t) at a node",
                     )
         return method, None

@@ -8,9 +8,9 @@ Each coordinate of the random point is drawn from 2^128 numbers. Let f and g be 
 let D be the degree of the numerator of f - g. The probability that f and g have the same value at the random
 point is at most D / 2^128 (Schwartz 1980; Zippel 1979).
 
-The random numbers are computed from a digest of all coefficients in the file. If a coefficient is changed,
-all random numbers change, too. Hence nobody can adapt the coefficients to known random numbers such that the
-random numbers satisfy a false identity.
+If the random point were known, the author of a file could choose coefficients such that f and g are different
+but have the same value at this point. Therefore the random numbers are computed from a digest of all
+coefficients in the file: if one coefficient is changed, all random numbers change.
 """
 
 from __future__ import annotations

@@ -48,8 +48,9 @@ FIRST_TRY = 64
 of the library need at most 18 subintervals. A multiple zero would need infinitely many."""
 
 MOST = 5000
-"""If the first search fails, multiple zeros can be removed from the polynomial. A second search then uses at
-most MOST subintervals. This limit bounds the work for zeros that are extremely close to each other."""
+"""The limit on the number of subintervals in a second search, which follows if the first search fails and the
+signs of all coefficients are known. The second search uses a polynomial with the same sign changes, but with
+simple zeros only. The limit bounds the work for zeros that are extremely close to each other."""
 
 ACCURACY = 60
 """A zero is enclosed in an interval of relative length 2^-ACCURACY, less than the rounding of a double."""

@@ -202,8 +202,8 @@ class _Body:
         # ``statement`` and ``group[0]`` must use the same list.
         same = self.terms.line(one(statement).args[0]) == first
         changed = root(one(statement)).text
-        # In ``x[0] = x[1]; x[1] = x[0]``, the second assignment reads the new x[0]. The slice assignment
-        # ``x[0:2] = x[1], x[0]`` reads the old x[0]. Therefore no value may depend on the list.
+        # If the assignments write a list, their right-hand sides must not contain this list. For example,
+        # ``x[0:2] = x[1], x[0]`` swaps x[0] and x[1], but ``x[0] = x[1]; x[1] = x[0]`` does not.
         apart = reading or all(x.text != changed for s in (*group, statement) for x in names([s.value]))
         return neighbours and same and apart
 
