@@ -1322,7 +1322,7 @@ static inline int dipole_vcf_cf4_advance(double state[static 12], double h,
         + d_xi4_2 * w274;
     const double new_mu2 = w277 + d_xi3_0 * w278 + d_xi3_1 * w279 + d_xi4_0 * w280
         + d_xi4_1 * w281;
-    /* Are all x finite? If their sum overflows, test x - x: 0 if x is finite, else NaN. */
+    /* All x are finite if their sum is finite or, after overflow, if each x - x is 0. */
     if (!isfinite(new_g00 + new_g01 + (new_g02 + new_g10) + (new_g11 + new_g12)
         + (new_g20 + new_g21) + (new_g22 + new_mu0) + (new_mu1 + new_mu2)) && !(new_g00
         - new_g00 + (new_g01 - new_g01) + (new_g02 - new_g02 + (new_g10 - new_g10))
