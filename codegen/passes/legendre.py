@@ -188,8 +188,8 @@ def _residual(block: Solve, route: Path, build: Builder) -> Var:
     replaced, computed = _values(build, route)
     given = route.base
     if _function_of_one(block, route):
-        # In this case, m and n are two values of the momentum P of the stage. This choice saves one
-        # operation: the computation of ``route.base`` from P by the inverse of the map in ``route.inward``.
+        # In this case, the residual is a difference of two values of the momentum P of the stage. A
+        # difference of two values of ``route.base`` would need the inverse of a map in ``route.inward``.
         given = route.velocity.args[1]
     elif route.inward and route.inward[0].terms:
         given = route.inward[0].targets[0]

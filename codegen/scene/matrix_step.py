@@ -337,10 +337,8 @@ class Logarithm(Unary):
         return Place.MATRIX
 
     def closed_forms(self) -> Iterator[MatrixFormula]:
-        """Yield the exponentials and logarithms in this formula that are computed by closed forms.
-
-        The first of them is this logarithm.
-        """
+        """Yield this logarithm, and then all exponentials and logarithms with closed forms in its
+        argument."""
         yield self
         yield from super().closed_forms()
 

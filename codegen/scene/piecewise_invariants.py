@@ -138,9 +138,8 @@ class _Check:
             sides = self.beside(formula, point)
             values = [self.orbit.values((root, x), place) for place in sides]
             pairs = [v for v in values if v is not None]
-            # If ``x`` is choose(y, a, b) and ``formula`` is a, a zero of a is a zero of ``x`` only for y > 0.
-            # If ``x`` has the same sign at both points, ``node`` does not switch between the two points, and
-            # the points are skipped.
+            # If ``x`` is choose(y, f, g) and ``formula`` is f, ``x`` equals f only for y > 0. At a zero of f
+            # with y <= 0, ``x`` has the same sign on both sides, so the case of ``node`` does not change.
             if len(pairs) < 2 or (formula is not x and (pairs[0][1].value > 0) == (pairs[1][1].value > 0)):
                 continue
             compared = True

@@ -133,9 +133,8 @@ class DexpinvSeries:
         """Let x be a letter, and let u be a linear combination of non-empty words. Return those terms of the
         truncated series dexpinv_u x that can contain a word (v, x, w), where v is a word of ``before``
         letters, and w is a word of ``behind`` letters. Each term has the form q u^n x u^m with a coefficient
-        q, and is returned as the triple (q, m, n). The right factor u^m gives the letters v on the left of
-        the word, and the left factor u^n gives the letters w on the right, because products are read from
-        right to left, and words from left to right.
+        q, and is returned as the triple (q, m, n). Products are read from right to left, and words from left
+        to right. Therefore u^m gives the letters v, and u^n gives the letters w.
 
         - If ``before`` is zero, m is zero. If ``before`` is positive, m is one of the numbers 1, ...,
           ``before``.

@@ -124,9 +124,9 @@ def infeasible(problem: Problem) -> Infeasible | None:
     try:
         values = problem.residuals(ring.generators, cast("RootedRing", ring), _conditions(problem))
         nonzero = _nonzero(problem, ring)
-        # A proof is valid only for methods of the ansatz. If the ansatz contains methods that are not
-        # symplectic, the formulas of the ansatz are not equivalent to symplecticity, so some symplectic
-        # methods may not be in the ansatz. In this case, return no proof.
+        # A proof is valid only for methods of the ansatz. A mistake in the formulas of the ansatz could
+        # exclude some symplectic methods. To find such a mistake, all methods of the ansatz are tested:
+        # they must be symplectic.
         if problem.family.symplectic and not _is_symplectic(problem, ring):
             return None
     except (

@@ -16,10 +16,11 @@ from orderconds.solve.spec import Spec, refuse
 from orderconds.solve.tableau_ansatz import tableau_structures
 
 MIRRORED = (
-    "Y_1, ..., Y_m are the exponents of the update; X_i1, X_i2, ... are the exponents of stage i after the "
-    "first k_i; bar Z is the exponent with the coefficients of Z in reverse order; Y_(m+1-J) = bar Y_J for "
-    "all J; X_jr = -bar X_ir for j = s + 1 - i and all r, where s is the number of stages; if m and s are "
-    "odd, the middle stage i = (s+1)/2 has (1/2) Y_((m+1)/2) as an additional exponent directly before X_i1"
+    "the update has the exponents Y_1, ..., Y_m; stage i has the exponents Y_1, ..., Y_k, X_i1, X_i2, ..., "
+    "where k depends on i; for J = 1, ..., m, Y_J with its coefficients in reverse order is Y_(m+1-J); for "
+    "j = s + 1 - i, where s is the number of stages, -X_ir with its coefficients in reverse order is X_jr; if "
+    "m and s are odd, the middle stage i = (s+1)/2 has (1/2) Y_((m+1)/2) as an additional exponent directly "
+    "before X_i1"
 )
 """The assumptions about symmetric methods (:mod:`orderconds.solve.paths`)."""
 

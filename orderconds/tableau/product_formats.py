@@ -242,6 +242,6 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
                         f"for some quadratic Lie groups, exponent number {k + 1} is not in the Lie algebra",
                         where=f"{self.name}: exponents[{k + 1}]",
                         expected="a linear combination of A, A*B - B*A, A*B*C + C*B*A, A*B*C*D - D*C*B*A, "
-                        "..., where each letter denotes the matrix A(t) at a node",
+                        "..., where A, B, C, D are values of the matrix at nodes",
                     )
         return method, None

@@ -187,11 +187,12 @@ class Bar:
 
         - ``step_seconds``, the predicted CPU time of one step, exceeds ``self.seconds``.
         - The method is implicit, and ``self.explicit`` is True.
-        - The assumed lower bound e/FAR (:data:`FAR`) for the error of the method exceeds ``self.error``. The
-          number e is the smallest predicted error of methods of the higher orders p + 1 and p + 2, in a run
-          of ``self.seconds`` seconds of CPU time. The number e comes from the triple (``family``,
-          ``explicit``, e) in ``self.least``. If this triple is missing, the triple ('', ``explicit``, e) for
-          all families is used. If that triple is missing, too, this case does not apply.
+        - The expected error exceeds ``self.error``. Let e be the smallest predicted error of methods of the
+          orders p + 1 and p + 2 in a run of ``self.seconds`` seconds of CPU time. The error of a method of
+          order p is expected to be at least e/FAR (:data:`FAR`). The number e comes from the triple
+          (``family``, ``explicit``, e) in ``self.least``. If this triple is missing, the triple
+          ('', ``explicit``, e) for all families is used. If that triple is missing, too, this case does not
+          apply.
         """
         if step_seconds > self.seconds or (self.explicit and not explicit):
             return True

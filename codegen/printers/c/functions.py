@@ -43,7 +43,7 @@ from codegen.snippets.graph import LIBRARY
 MANY = 20
 """If more than ``MANY`` short statements follow each other, several statements are printed on each line."""
 
-ONE_TEST = "All x are finite if their sum is finite or, after overflow, if each x - x is 0."
+ONE_TEST = "A finite sum has finite terms x. After overflow, x - x is 0 only for finite x."
 """The comment before a test that all x are finite. If x is not finite, x - x is NaN."""
 
 

@@ -202,8 +202,8 @@ class _Body:
         # ``statement`` and ``group[0]`` must use the same list.
         same = self.terms.line(one(statement).args[0]) == first
         changed = root(one(statement)).text
-        # If the assignments write a list, their right-hand sides must not contain this list. For example,
-        # ``x[0:2] = x[1], x[0]`` swaps x[0] and x[1], but ``x[0] = x[1]; x[1] = x[0]`` does not.
+        # Assignments that write to a list are joined only if they do not read this list. For example,
+        # ``x[0] = x[1]; x[1] = x[0]`` must not become ``x[0:2] = x[1], x[0]``, which swaps the two entries.
         apart = reading or all(x.text != changed for s in (*group, statement) for x in names([s.value]))
         return neighbours and same and apart
 
