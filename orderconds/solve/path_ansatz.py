@@ -17,10 +17,10 @@ from orderconds.solve.tableau_ansatz import tableau_structures
 
 MIRRORED = (
     "the update has the exponents Y_1, ..., Y_m; stage i has the exponents Y_1, ..., Y_k, X_i1, X_i2, ..., "
-    "where k depends on i; for J = 1, ..., m, Y_J with its coefficients in reverse order is Y_(m+1-J); for "
-    "j = s + 1 - i, where s is the number of stages, -X_ir with its coefficients in reverse order is X_jr; if "
-    "m and s are odd, the middle stage i = (s+1)/2 has (1/2) Y_((m+1)/2) as an additional exponent directly "
-    "before X_i1"
+    "where k depends on i, and stage j = s + 1 - i has m - k in place of k (s is the number of stages); for "
+    "J = 1, ..., m, Y_J with its coefficients in reverse order is Y_(m+1-J); -X_ir with its coefficients in "
+    "reverse order is X_jr; if m and s are odd, the middle stage i = (s+1)/2 has (1/2) Y_((m+1)/2) as an "
+    "additional exponent directly before X_i1"
 )
 """The assumptions about symmetric methods (:mod:`orderconds.solve.paths`)."""
 
