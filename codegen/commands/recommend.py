@@ -154,8 +154,8 @@ def unreached(result: Recommendation) -> str:
     - No method reaches the requested error. In this case the message contains the smallest measured error.
 
     A method reaches the requested error only if a second run with higher accuracy confirms the first run. If
-    the smallest measured error is at most the requested error, the message says that the second run does not
-    confirm this error.
+    the smallest measured error is at most the requested error, the message says that the run with this
+    error is not confirmed.
     """
     asked = result.request
     needs = f" with {', '.join(asked.needs)}" if asked.needs else ""
@@ -177,8 +177,8 @@ def unreached(result: Recommendation) -> str:
         # The error of a single run can be small by accident (codegen.lab.efficiency.race).
         missed += " in two consecutive runs"
         least += (
-            ", but a second run (half the step size, or a tenth of the tolerance) does not confirm this "
-            "error: the error of the second run is unknown or too large (more than twice the requested error)"
+            ", but this run is not confirmed: with half the step size or a tenth of the tolerance, the error "
+            "is unknown or more than twice the requested error"
         )
     return f"{asked.scene}: {missed}; {least}; relax --error\n{searched(result)}"
 

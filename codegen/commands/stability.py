@@ -47,10 +47,10 @@ def command(
     the test, or if a method cannot be emitted for the scene, the exit status is 1.
 
     A stability interval is the largest interval from 0, on the negative real or the positive imaginary axis,
-    on which |R| <= 1. R is the stability function of the tableau. The ends are computed from the exact
-    coefficients. "none" means that |R| > 1 right after 0, even if |R| is only slightly above 1. "unbounded"
-    means that |R| <= 1 is proved on the whole half-axis. "undecided" means that rounded coefficients do not
-    determine the end.
+    on which |R| <= 1. R is the stability function of the tableau. The ends are computed in exact
+    arithmetic. "none" means that |R| > 1 right after 0, even if |R| is only slightly above 1. "unbounded"
+    means that |R| <= 1 is proved on the whole half-axis. "undecided" means that the tableau contains rounded
+    coefficients, and that their digits do not determine the end.
 
     \b
     Examples:

@@ -59,9 +59,8 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
         Otherwise return None.
         """
         own = super().offers(capability)
-        # If ``capability`` is DirectProduct or one of the base classes of DirectProduct, every direct product
-        # has the operations of ``capability``, so the factors are not tested. If ``capability`` is another
-        # class, each factor must have the operations of ``capability``, too.
+        # The factors of a direct product need not be direct products. Therefore the factors are not tested if
+        # ``capability`` is DirectProduct or a base class of DirectProduct.
         if issubclass(DirectProduct, capability):
             return own
         return own if all(f.offers(capability) is not None for f in self.factors) else None

@@ -33,7 +33,7 @@ class SU2(S3):
         return S3.exp(self, d, _half(d, x))
 
     def cay(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return the Cayley map of S^3 at the imaginary quaternion (0, x/2)."""
+        """Return the unit quaternion cay(x) = (1 - |x|^2/16, x/2)/(1 + |x|^2/16)."""
         return S3.cay(self, d, _half(d, x))
 
     def dcayinv(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:

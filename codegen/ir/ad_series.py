@@ -54,8 +54,8 @@ def simplified(word: Word) -> Word:
     >>> simplified((Factor("dexp", Fraction(1)), Factor("exp", Fraction(-1))))[0].text()
     'dexp(-t)'
     """
-    # Each key of ``powers`` describes a factor dexp or dexpinv, and the value is its total power. All factors
-    # exp(s t) in ``word`` are joined to one factor exp(``rate`` t), where t is the variable of the functions.
+    # Each key of ``powers`` describes a factor dexp or dexpinv, and the value is its total power. The product
+    # of all factors exp(s t) in ``word`` is exp(``rate`` t).
     powers: dict[tuple[str, Fraction, int], int] = {}
     rate = Fraction(0)
     for f in word:

@@ -57,7 +57,7 @@ class Move:
     - X_0 is the state at the start of the step.
     - B is the basis of the step (see the beginning of this module).
     - ``core`` is S, and ``gram`` is B^T B.
-    - ``start`` is the matrix with X = X_0 + B ``start`` (the displacement of X), or None if X is X_0.
+    - ``start`` is the displacement D_0 of X, defined by X = X_0 + B D_0. If X is X_0, ``start`` is None.
     - ``start`` may have fewer rows than ``target``. The missing rows are zero.
     """
 

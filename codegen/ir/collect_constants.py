@@ -43,8 +43,8 @@ def gathered(roots: Sequence[Expr], kept: Iterable[Expr] = ()) -> tuple[Expr, ..
     work = _Gathering(_powers(roots, bare))
     for node in bare:
         if node.args:
-            # The next line stores the node as a sum with one term: the number 1 times the node. Because of
-            # this entry, ``work.whole`` does not rewrite the node.
+            # ``work.whole`` rewrites only nodes without entries in ``work.sums`` and ``work.written``. Here
+            # the entry in ``sums`` is 1 times the node, and the entry in ``written`` is the node itself.
             work.sums[node.id], work.written[node.id] = {node.id: (Number.rational(1), node)}, node
     # ``still`` contains the ids of expressions that are not rewritten. The function ``_operations`` below
     # does not count the operations in these expressions.
@@ -248,7 +248,7 @@ def _expression(total: Sequence[tuple[Number, Expr]], space: Space) -> Expr:
     for key, terms in groups.items():
         first, part = terms[0][0], terms[0][1]
         for minus, atom in terms[1:]:
-            # The sign of the first term is factored out of the whole group.
+            # The sign of the first term is factored out: -a + b becomes -(a - b).
             part = part + atom if minus == first else part - atom
         part = space.const(sizes[key]) * part
         # A minus sign that was factored out above becomes a subtraction.

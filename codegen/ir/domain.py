@@ -443,7 +443,7 @@ class SeriesDomain:
         total, term, j = first, first, 0
         while True:
             j += 1
-            # Term j is term j - 1 times -z, divided by ``divisor``.
+            # The next term is the current term, multiplied by -z and divided by ``divisor``.
             divisor = math.prod(range(step * (j - 1) + k + 1, step * j + k + 1))
             term = -(term * z) * self.ring.rational(1, divisor)
             # z has no constant term, and ``ring`` truncates all series. So z^j is zero for large j.

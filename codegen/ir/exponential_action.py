@@ -102,7 +102,7 @@ class ExponentialAction(VectorFunction):
 
     @property
     def rows(self) -> tuple[tuple[tuple[int, int], ...], ...]:
-        """For each row i of A, the pairs (k, j) for which the entry A_ij is argument k of the function.
+        """The entries of A that are arguments, row by row, as pairs (index of the argument, column of A).
 
         If all entries of a 2 x 2 matrix are arguments, the rows are ((0, 0), (1, 1)) and ((2, 0), (3, 1)).
         """
@@ -255,8 +255,8 @@ class ExponentialAction(VectorFunction):
         """
         entries, rows = len(self.places), self.rows
         total = term = list(args[entries:])
-        # A finite series has at most ``longest`` terms. If the loop finds no zero term, the series is
-        # therefore infinite.
+        # The loop tests the terms A^k y/k! for k = 1, ..., ``longest``. In a finite series, at least the last
+        # of these terms is zero.
         longest = self.n * (ring.order + 2)
         for k in range(1, longest + 1):
             factor = ring.rational(1, k)

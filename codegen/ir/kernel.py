@@ -30,7 +30,9 @@ distinguishes the name from all names that a user can choose.
 """
 
 ELAPSED = "elapsed.h"
-"""The name of a symbol. In splitting methods, the symbol is the total duration of a run of several steps."""
+"""The name of a symbol. In a splitting method, a flow that commutes with all other flows may be applied once
+after n steps. The symbol is the duration n h of this flow.
+"""
 
 LONGEST = 256
 """The largest number of steps that share one deferred flow (:class:`Deferred`).

@@ -149,7 +149,7 @@ class RoundingDomain:
         results = self.plain.vector(function, values)
 
         def along(step: Scalar) -> tuple[Scalar, ...]:
-            # The factors are between 1 and 7/4 and have no simple pattern.
+            # Factor k is ``step`` times an irregular number from 1 to 7/4: 1, 23/16, 17/16, 3/2, ...
             factors = (step * (16 + 7 * k % 13) / 16 for k in range(len(args)))
             return self.plain.vector(
                 function, [x.value + t * x.size for x, t in zip(args, factors, strict=True)]

@@ -161,8 +161,9 @@ class Bivector(OfGroup):
 class TaylorStep(Operation):
     """The Taylor polynomial of the solution about the time t, evaluated at t + h.
 
-    The arguments are the state y at the time t and, if ``timed`` is true, t. The module
-    :mod:`codegen.scene.evolution` chooses the coordinates of the result.
+    The arguments are the state y at the time t and, if ``timed`` is true, t. The result contains the
+    coordinates of :class:`codegen.scene.evolution.Evolution`, for example the body momentum in place of the
+    momentum in the space frame.
     """
 
     degree: int

@@ -51,7 +51,8 @@ def selected(domain: Domain, function: str, args: tuple[Scalar, ...], sign: Sign
         return x
     if function == ABSOLUTE:
         return -x if order < 0 else x
-    # ``choose`` selects ``args[1]`` if x is positive (``order`` is 1), and ``args[2]`` if x is negative or 0.
+    # ``order`` is the sign of ``args[0]``. The function ``choose`` selects ``args[1]`` for the sign 1, and
+    # ``args[2]`` for the signs 0 and -1.
     return args[1] if order > 0 else args[2]
 
 

@@ -254,7 +254,7 @@ class SiteStep:
 
     @property
     def passes(self) -> tuple[Sweep, ...]:
-        """The sweeps of a step in the order of execution. A sweep occurs once for each flow that uses it."""
+        """The sweeps of a step in the order of execution. A sweep that n flows use is listed n times."""
         # A step without flows executes each sweep once.
         return tuple(self.sweeps[flow.sweep] for flow in self.flows) or self.sweeps
 

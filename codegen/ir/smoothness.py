@@ -63,10 +63,10 @@ def on_sides(roots: Sequence[Expr], nodes: Sequence[Expr], sides: Sides) -> tupl
 
 
 def _side(function: str, args: Sequence[Expr], side: int, domain: ExprDomain) -> tuple[Expr, list[Expr]]:
-    """Return one formula of the call ``function(*args)``, and a list of expressions called margins.
+    """Return one formula for the value of ``function(*args)``, and a list of expressions called margins.
 
-    The call selects one of several formulas. For example, the formulas of ``fabs(x)`` are -x and x. ``side``
-    is the index of the returned formula. If all margins are positive, the call selects this formula.
+    For example, the value of ``fabs(x)`` is -x (``side`` = 0) or x (``side`` = 1). The argument ``side`` is
+    the index of the returned formula. If all margins are positive, the value is given by this formula.
     """
     x = args[0]
     if isinstance(function, PiecewisePolynomial):

@@ -6,7 +6,10 @@ from codegen.ir.domain import Domain, Scalar
 
 
 class ShortChains:
-    """Base class of domains in which :func:`corrected` adds its two corrections one after the other."""
+    """Base class of domains in which :func:`corrected` computes (x + a) + b instead of x + (a + b).
+
+    If b is known last, only one addition follows b.
+    """
 
 
 def corrected(d: Domain, base: Scalar, first: tuple[Scalar, Scalar], second: tuple[Scalar, Scalar]) -> Scalar:

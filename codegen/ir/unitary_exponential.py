@@ -172,7 +172,8 @@ def _bound(x: Sequence[float]) -> float:
 
     ``x`` are the coordinates of the matrix X = i H, where i is the imaginary unit.
     """
-    # By the trigonometric formula for z^3 = p z + q, each eigenvalue z of H is 2 (p/3)^(1/2) times a cosine.
+    # Let p be ``half_trace(x)``, and q = det H. Each eigenvalue z of H satisfies z^3 = p z + q. By the
+    # trigonometric formula for this equation, z is (4 p/3)^(1/2) times a cosine.
     return math.sqrt(1.3333333333333333 * half_trace(x))
 
 

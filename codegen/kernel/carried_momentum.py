@@ -43,7 +43,7 @@ class Frames:
     @property
     def _alike(self) -> bool:
         """True if ``program`` and the emitted code use the same frame for momenta."""
-        # The result is true if the program and the emitted code use the same frame.
+        # The emitted code uses the body frame if ``body_group`` is not None, otherwise the space frame.
         return (self.program.frame == BODY) == (self.scene.body_group is not None)
 
     @property

@@ -99,7 +99,7 @@ def _live(body: Sequence[Statement], outputs: Sequence[Expr]) -> tuple[Statement
     for statement in reversed(body):
         if isinstance(statement, Let) and statement.name not in needed:
             continue
-        # ``expressions`` is a method of kernels, so ``statement`` is put into a kernel of its own.
+        # A statement has no method ``expressions``, so a kernel is created that contains only ``statement``.
         roots = replace(_EMPTY, body=(statement,)).expressions()
         needed |= {n.payload for n in walk(roots) if n.op == "sym"}
         kept.append(statement)
@@ -145,8 +145,8 @@ class Increments:
         if e.op == "mul":
             # A product is commutative, so either argument can contain the old coordinate.
             for factor, base in (e.args, e.args[::-1]):
-                # Let f be ``factor``, b ``base`` and x the symbol ``name``. The increment of the product f b
-                # is f b - x = (f - 1) b + (b - x).
+                # Let f be ``factor``, b ``base`` and x the symbol ``name``. The result is the product f b
+                # minus the symbol x: f b - x = (f - 1) b + (b - x).
                 rest, more = self.of(base, name), self.less_one(factor)
                 if rest is not None and more is not None:
                     return more * base + rest

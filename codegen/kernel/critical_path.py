@@ -250,15 +250,15 @@ class _Chains:
         for a, b in (node.args, node.args[::-1]):
             if self.fixed[a.id] and b.op == "mul":
                 for c, d in (b.args, b.args[::-1]):
-                    # The node is a (c d), and a is constant in a run. If c is also constant and d varies, the
-                    # node is replaced by (a c) d. If a, c and d are all constant, another order of the
-                    # multiplications saves nothing, so the node is not changed.
+                    # ``node`` is ``a * (c * d)``, and ``a`` is constant in a run. If ``c`` is also constant
+                    # and ``d`` varies, ``node`` is replaced by ``(a * c) * d``. If all three factors are
+                    # constant, another order of the multiplications saves nothing, so ``node`` is kept.
                     if self.fixed[c.id] and not self.fixed[d.id]:
                         return self._product(a * c, d)
         return node
 
     def _known(self, node: Expr) -> Expr:
-        """Call :meth:`_measure` for all new nodes of the expression ``node``, and return ``node``."""
+        """Call :meth:`_measure` for all unmeasured subexpressions of ``node``, and return ``node``."""
         if node.id in self.ready:
             return node
         for part in walk([node], lambda n: n.id in self.ready):

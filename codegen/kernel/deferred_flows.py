@@ -78,7 +78,7 @@ def part(program: Program, scene: Problem) -> Parted | None:
     first: list[Timed] = [(kept[i], None) for i in sorted(heads)]
     # The previous step has already applied the flows with the indices ``heads``.
     inner: list[Timed] = [(x, lead if j in tails else None) for j, x in enumerate(kept) if j not in heads]
-    # For a vector field X, one flow replaces n equal flows: exp(h X)^n = exp(n h X).
+    # In a run of n steps, each flow in ``spun`` is applied once, with the duration ``elapsed`` = n h.
     outer: list[Timed] = [(letter, elapsed) for letter in spun]
     return Parted(
         verify(_program(program, first)) if first else None,

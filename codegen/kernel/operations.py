@@ -68,8 +68,8 @@ def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
             case _:
                 total[STEP] = _plus(total[STEP], count([statement], ()))
     for key in (STEP, START):
-        # The counts for the whole step are multiplied by the number of substeps. All other counts are for one
-        # sweep of a loop or for one matrix.
+        # The counts for ``key`` were made for one substep. A step has ``arrangement.repeated`` substeps.
+        # All other counts are for one sweep of a loop or for one matrix.
         if key in total:
             total[key] = {name: n * arrangement.repeated for name, n in total[key].items()}
     return total
