@@ -233,9 +233,9 @@ def _alone(function: Function) -> Kernel:
 def _outside(statement: Let | Start | Loop) -> Sequence[Expr]:
     if isinstance(statement, Let):
         return [statement.value]
-    # The result contains the expressions that every step computes outside loops. For a :class:`Loop`, these
-    # are the starting values of the unknowns. For a :class:`Start`, the result is empty, because only some
-    # steps compute the expressions of a :class:`Start`.
+    # If ``statement`` is a :class:`Loop`, the result contains the starting values of the unknowns, because
+    # every step computes these values before the loop. If ``statement`` is a :class:`Start`, the result is
+    # empty, because only some steps compute the expressions of a :class:`Start`.
     return statement.starts if isinstance(statement, Loop) else []
 
 

@@ -1,4 +1,4 @@
-"""Shared angles: arguments that are equal as polynomials become one expression.
+"""Shared angles: equal arguments of Stumpff functions become one expression.
 
 Variational methods need the exponentials of h xi/2 and -h xi/2 in one stage. Here h is the step size, and xi
 is an element of the Lie algebra. Both exponentials contain Stumpff functions of the same squared norm, but

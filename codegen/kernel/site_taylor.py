@@ -38,7 +38,9 @@ CALL = 10
 
 @dataclass
 class _Stored:
-    """The expressions that sweeps store. The keys of all three dictionaries are the ids of the expressions.
+    """The expressions that are stored in one sweep over all sites and read in later sweeps.
+
+    The keys of all three dictionaries are the ids of the expressions.
 
     - ``writer`` contains the number of the sweep that stores the expression.
     - ``last`` contains the number of the last sweep that reads the expression.

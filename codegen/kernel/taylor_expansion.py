@@ -101,8 +101,8 @@ def _enter(kernel: Kernel, work: Evolution, frame: Coadjoint | None) -> Kernel |
     state = tuple(s for f in kernel.state for s in f.symbols)
     given = tuple(map(domain.space.sym, state))
     ends = work.enter(domain, given, frame)
-    # The Taylor polynomial is computed in the coordinates ``ends``. If ``ends`` equals the state ``given``,
-    # no conversion is needed.
+    # ``ends`` contains formulas for the coordinates in which the Taylor polynomial is computed. If these
+    # formulas are the symbols ``given`` of the state, no conversion is needed.
     if ends == given:
         return None
     return _kernel(kernel, kernel.state, ends, _names(kernel))

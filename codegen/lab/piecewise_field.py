@@ -247,7 +247,8 @@ class Sided:
             return min((values[k].mid() for k in crossed), key=float)
 
         first, last = (min((values[k].mid() for k in crossed), key=float) for values in (start, end))
-        # The margin can already be zero, or negative by a rounding error, at the start of the bracket.
+        # The margin ``first`` at ``low`` can be zero, or negative because of a rounding error. In both cases,
+        # the event is at ``low``.
         tau = _root(margin, low, high, first, last) if first > 0 else low
         place = advance(self, y, t, tau)[0]
         now = (t + tau).mid()

@@ -51,8 +51,9 @@ def problem_for(scene: Problem, method: Method) -> Problem:
 def method_for(scene: Problem, given: Method | Tableau | str, family: str = "") -> Method:
     """Return ``given`` as a method for a scene (:func:`codegen.method.method_of`).
 
-    The argument ``family`` can name the family of the method. A text ``given``, such as ``cf:cf4``, can also
-    name the family (``cf``). :class:`MethodError` is raised if the family does not accept the scene.
+    The argument ``family`` can name the family of the method. If ``given`` is a text such as ``cf:cf4``, the
+    text can also name the family (``cf``). :class:`MethodError` is raised if the family does not accept the
+    scene.
     """
     stated = _stated_step(scene, given)
     if stated is not None:

@@ -113,7 +113,10 @@ class FlowLowering(Lowering):
         return None
 
     def problem(self, scene: Problem, method: Method) -> Problem:
-        """Return a copy of the scene. The attribute ``flows`` of the copy maps names to exact flows."""
+        """Return a copy of the scene with the exact flows of the step in the dictionary ``flows``.
+
+        The keys of ``flows`` are the names of the flows.
+        """
         word = self.read(scene, method).word
         # Only flows of the step are included, because other flows would be emitted as unused functions.
         flows = {name: flow for summand, _ in word for name, flow in summand.flows}

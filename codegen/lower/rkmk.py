@@ -75,7 +75,8 @@ class MuntheKaas(FieldLowering):
         if scene is not None and scene.coordinates is not None:
             from orderconds import families
 
-            # An exact inverse differential corresponds to the full series of dexp^{-1}, without a cut-off.
+            # The step inverts the differential of the coordinate map exactly. Therefore the order conditions
+            # are those of methods without a cut-off.
             return families.get(self.family)
         if method.cutoff is not None:
             return super().conditions(method, scene)

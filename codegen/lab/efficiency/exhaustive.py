@@ -2,11 +2,11 @@
 
 A recipe consists of a method, one form of the equations, and the choice of equal steps or step-size control.
 
-1. The CPU time of each recipe for each required error is predicted from a few runs in the interpreter.
-2. The predicted CPU time divided by the safety factor SAFE is a lower bound of the true CPU time.
-3. The time limit for a required error is WORST times the CPU time of the best recipe of
-   ``orderconds recommend`` for this error. A recipe is excluded if, for each required error, the lower bound
-   exceeds the time limit.
+1. For each recipe r and each required error e, the CPU time T(r, e) is predicted from a few runs in the
+   interpreter.
+2. T(r, e)/SAFE is used as a lower bound of the true CPU time, where SAFE is a safety factor.
+3. The time limit L(e) is WORST times the CPU time of the best recipe of ``orderconds recommend`` for the
+   error e. The recipe r is excluded if T(r, e)/SAFE > L(e) for all required errors e.
 4. The remaining recipes are emitted, compiled and timed.
 5. A sample of the excluded recipes is also timed, to test the lower bounds.
 """

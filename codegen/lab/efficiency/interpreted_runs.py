@@ -59,11 +59,12 @@ class NewtonDomain(CountingDomain):
 
 
 def run(program: Program, problem: Problem, steps: int, end: float = math.inf) -> tuple[Vector, float]:
-    """Make ``steps`` equal steps over the time span. Return the pair (final state, sweeps).
+    """Integrate over the time span in equal steps. Return the pair (final state, sweeps).
 
-    A sweep is one iteration for a system of implicit equations. The result ``sweeps`` is a prediction of the
-    mean number of sweeps that emitted code needs for one system in one step. ArithmeticError is raised if a
-    state is not finite, or if the process has used more than ``end`` seconds of CPU time.
+    ``steps`` is the number of steps. A sweep is one iteration for a system of implicit equations. The result
+    ``sweeps`` is a prediction of the mean number of sweeps that emitted code needs for one system in one
+    step. ArithmeticError is raised if a state is not finite, or if the process has used more than ``end``
+    seconds of CPU time.
     """
     first, last = problem.span
     domain = CountingDomain(float((last - first) / steps))

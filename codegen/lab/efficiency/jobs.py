@@ -83,7 +83,7 @@ class Jobs(Sequence[Job]):
 
     The choice of the next recipe is explained at :data:`EVEN`.
 
-    - ``goals``: for each recipe, the goals for which the CPU time of the recipe is predicted.
+    - ``goals``: for each recipe, the goals that the recipe can meet with equal steps or step-size control.
     - ``controlled``: for each recipe, the goals that the recipe can meet with step-size control.
     - ``early``: names of the methods whose recipes are predicted first.
     """

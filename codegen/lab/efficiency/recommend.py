@@ -66,7 +66,7 @@ class Recommendation:
     - ``best``: if no recipe is successful, the most accurate run of a recipe that meets ``request.needs`` and
       ``request.stack``, or None if no measured recipe meets them. If ``places`` contains a run, ``best`` is
       not needed and is None.
-    - ``predicted``: the number of predicted recipes.
+    - ``predicted``: the number of pairs (method, form of the equations) whose CPU time was predicted.
     - ``raced``: the number of measured recipes.
     - ``seconds``: the time of the search in seconds.
     - ``complete``: False if the time limit ended the search.

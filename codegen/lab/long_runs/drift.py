@@ -53,8 +53,8 @@ LATE, LATE_CONFINED = 1.5, 2.0
 """Two limits for the growth factor of the deviations in a run.
 
 The growth factor is the largest deviation in the run, divided by the largest deviation in the first half of
-the run. The limit LATE_CONFINED applies if the deviations vary much less than a random walk
-(:data:`CONFINED`). Otherwise the limit LATE applies.
+the run. The scatter of the deviations is defined at :data:`CONFINED`. LATE_CONFINED is used only if the
+scatter is below CONFINED. LATE is used in all other cases.
 """
 
 LEVEL, STAYS = 0.9, 0.5
@@ -94,8 +94,9 @@ STEADY = 3.2
 """A limit for the steadiness of a record of deviations.
 
 The record is cut into blocks, and the mean of each block is computed. Let m be the average difference between
-consecutive means, and let s be the standard error of m. The steadiness is |m|/s. A record with a steadiness
-above STEADY does not count as a random walk, because only 1 % of all random walks are as steady.
+consecutive means, and let s be the standard error of m. The steadiness is |m|/s. The steadiness is large if
+the means grow or fall at a nearly constant rate. A record does not count as a random walk if its steadiness
+is above STEADY. Only 1 % of all random walks have a steadiness above STEADY.
 """
 
 TINY = 1e-24

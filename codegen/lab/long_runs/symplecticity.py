@@ -166,12 +166,14 @@ def _scales(
 
     Here xi is an element of the Lie algebra, and nu is an element of its dual space.
     ``elements`` contains the coordinates q of the group element before and after the step, and ``momenta``
-    contains the momentum mu before and after the step. Of the norms before and after the step, the larger one
-    is used, because q or mu can be zero before or after the step.
+    contains the momentum mu before and after the step.
 
     - Let e be a basis element of the Lie algebra. Let v be the derivative of exp(s e) q with respect to s at
       s = 0. The scale of the coordinate of xi in the direction e is |q|/|v|.
     - The scale ``action`` is |mu|, multiplied by the largest scale of a coordinate of xi.
+
+    The norms |q|, |v| and |mu| are computed before and after the step. For each norm, the larger of the two
+    values is used, because q or mu can be zero before or after the step.
 
     Raises ArithmeticError if q is zero before and after the step, or if mu is zero before and after the step.
     """

@@ -187,9 +187,10 @@ def completed(
 ) -> tuple[Line, ...]:
     """Return a copy of ``lines`` in which faster methods from ``known`` replace slower methods.
 
-    ``lines`` is the result of an unfinished search. Each line belongs to a requirement. For each error 10^-k,
-    a line contains the fastest method that the search found, or None. ``known`` contains the properties of
-    measured methods. ``entries`` maps the label of a method to the measured runs of this method.
+    ``lines`` is the result of an unfinished search. Each line belongs to a requirement on the methods, for
+    example that they are symplectic. For each error 10^-k, a line contains the fastest method that the search
+    found, or None. ``known`` contains the properties of measured methods. ``entries`` maps the label of a
+    method to the measured runs of this method.
 
     For each line and each error, let M be the fastest method in ``known`` that satisfies the requirement and
     reaches the error. M replaces None, and M replaces a method that needs more CPU time than M. A line is not
@@ -229,10 +230,9 @@ def monotone(line: Line) -> Line:
 
 
 def peers(entries: Mapping[str, Sequence[Row]]) -> tuple[Line, ...]:
-    """Return a tuple that contains one :class:`Line`.
+    """Return a tuple with one :class:`Line`, or an empty tuple if no peer (other integrator) was measured.
 
-    For each error 10^-k with k in :data:`DECADES`, the line contains the fastest peer (other integrator). If
-    no peer was measured, the tuple is empty.
+    For each error 10^-k with k in :data:`DECADES`, the line contains the fastest peer.
     """
     others = {label: rows for label, rows in entries.items() if rows and rows[0].target == "peer"}
     if not others:

@@ -173,7 +173,10 @@ class Convergence:
             return f"{text}; the coefficients are rounded (uncertainty {self.spread:.1e})"
         if not self.refinement.settled:
             return text
-        return f"{text}; with longer steps, the leading term is not the largest term of the error"
+        return (
+            f"{text}; with the longer steps that show the observed order, "
+            "the leading term is not the largest term of the error"
+        )
 
     def _unsettled(self) -> str:
         """Return the reason why the slopes do not determine the order, and a hint to the user."""

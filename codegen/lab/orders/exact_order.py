@@ -45,7 +45,10 @@ points.
 """
 
 STEPS = 64
-"""The number of steps to a later point of the solution. The computed point need not be accurate."""
+"""STEPS steps lead from the initial state to each point of the solution in :data:`LATER`.
+
+The computed points need not be accurate.
+"""
 
 DENOMINATOR = 64
 """The largest denominator of the rational initial coordinates that :func:`with_exact_start` chooses."""
@@ -194,7 +197,8 @@ def exact_local_error(scene: Problem, method: Method) -> ExactLocalError:
         try:
             leading = replace(_of_step(later, method, certified), points=count)
         except SceneError:
-            # If the field is not smooth at the initial state of ``later``, the result up to now is returned.
+            # The local error cannot be computed at this later point of the solution, for example because the
+            # field is not smooth there. Therefore the result at the previous point is returned.
             break
     return leading
 

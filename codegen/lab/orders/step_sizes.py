@@ -85,7 +85,7 @@ class Refinement:
 
     @property
     def slopes(self) -> tuple[float, ...]:
-        """The slopes of log(error) against log(h) from each run in :attr:`clean` to the next run."""
+        """The slope of log(error) against log(h) for each pair of consecutive runs in :attr:`clean`."""
         return slopes(self.clean)
 
     @property

@@ -29,7 +29,7 @@ LINE = 14.0
 """The height of a line of the legend, in printer's points."""
 
 FAINT = 0.4
-"""The opacity of the bars that show the body at a few times after the initial time."""
+"""The opacity of the still images. Each still image shows the body at one time after the initial time."""
 
 FRAMES = 150
 """The largest number of keyframes of the animation."""

@@ -49,10 +49,11 @@ TINY = 2.0**-1022
 """The smallest normal double. A result whose absolute value is less than TINY counts as zero."""
 
 ROUNDINGS = 256.0
-"""The factor of an error bound. A result is wrong if its error exceeds ROUNDINGS * (d + e).
+"""The factor in a bound for the error of a step that emitted code makes.
 
-The step is repeated with simulated rounding errors, and d is the largest error of a coordinate in all
-repetitions. The number e is about one rounding error of the result.
+The step is repeated with simulated rounding errors. Let d be the largest error of a coordinate in all
+repetitions, and let e be about one rounding error of a coordinate. The result of the emitted code counts as
+wrong if its error exceeds ROUNDINGS * (d + e).
 """
 
 LEAST = 3
@@ -292,8 +293,9 @@ class Rounding(BallDomain):
     """Arithmetic that simulates the rounding errors of double precision.
 
     Each operation is computed with many digits. After this, one rounding error of double precision is added
-    to the result. The errors are relative, and the signs of the errors are random. The sign for an operation
-    is drawn only once, because implicit equations must not change from iteration to iteration.
+    to the result. The errors are relative, and the signs of the errors are random. If an iteration for
+    implicit equations repeats an operation, the error has the same sign as before, because the equations must
+    not change from iteration to iteration.
 
     Let g_1, ..., g_n be the right-hand sides of a system of implicit equations. Each g_i gets two errors: the
     first error is proportional to g_i, and the second error is proportional to g_(i+1). For i = n, the second

@@ -60,8 +60,8 @@ class Region:
     def as_json(self) -> dict[str, object]:
         """Return plain data, which can be written as JSON.
 
-        A length that is infinite or undecided becomes None. The key ``undecided`` lists the axes whose length
-        is undecided.
+        If the length of a stability interval is infinite or undecided, the length becomes None. The value of
+        the key ``undecided`` lists the axes (``real`` or ``imaginary``) on which the length is undecided.
         """
         lengths = {"real": self.real, "imaginary": self.imaginary}
         known = {axis: None if length == float("inf") else length for axis, length in lengths.items()}
