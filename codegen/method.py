@@ -1,7 +1,7 @@
 """A method: a family with a tableau, such as ``vcg:triple_jump`` or ``rkmk(2):rk4``.
 
-The label of a method may contain only the tableau, as in ``cf4``. The label of a method without a tableau
-contains only the family, as in ``taylor(12)``.
+The family can be omitted from the label, as in ``cf4``. The label of a method without a tableau contains only
+the family, as in ``taylor(12)``.
 """
 
 from __future__ import annotations

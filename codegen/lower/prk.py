@@ -103,12 +103,12 @@ class PartitionedLowering(Lowering):
                 # If the velocity does not depend on positions, its values at ``q`` and ``Q`` are equal, so
                 # ``q`` can replace ``Q``.
                 if not by_position:
-                    # ``q`` is known, but ``Q`` can depend on unknown velocities.
+                    # ``Q`` can depend on unknown velocities. Therefore the velocity is computed from ``q``.
                     v, _ = build.hamilton(f"v{number}", "unused", q, P, *time)
                 # If the force does not depend on momenta, its values at ``mu`` and ``P`` are equal, so ``mu``
                 # can replace ``P``.
                 if not by_momentum:
-                    # ``mu`` is known, but ``P`` can depend on unknown forces.
+                    # ``P`` can depend on unknown forces. Therefore the force is computed from ``mu``.
                     _, f = build.hamilton("unused", f"f{number}", Q, mu, *time)
                 velocities.append(v)
                 forces.append(f)

@@ -73,8 +73,8 @@ def _program(scene: Problem, method: Method) -> Program:
 
     def one() -> list[Var]:
         """For a method with one stage, append the momentum M to the program, and return [M]."""
-        # Let x = h xi, a = a_11 and b = b_1 (xi: velocity, n: force, mu: initial momentum). The momentum of
-        # the stage is M = L + h (b - a) F with L = dexp*_{-b x} mu and F = dexp*_{-(b - a) x} n.
+        # A step begins with the momentum mu. The stage has the velocity xi, the force n and the momentum
+        # M = dexp*_y mu + h rest dexp*_z n, where rest = b_1 - a_11, y = -h b_1 xi and z = -h rest xi.
         rest = b[0] - A[0][0]
         minus = build.lin("y", Kind.ALG, [(stages.times_h(-b[0]), xi[0])])
         after = build.lin("z", Kind.ALG, [(stages.times_h(-rest), xi[0])])

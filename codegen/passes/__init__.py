@@ -95,7 +95,7 @@ class Optimiser:
 
     def _run(self, each: Pass) -> None:
         old, new = self.program, verify(each.run(self.program))
-        # An unchanged program is not compared with the reference.
+        # A pass that leaves the program unchanged needs no test and no report.
         if new == old:
             return
         # ``new`` is not compared with ``old``, but with the program that the first pass received.

@@ -86,8 +86,8 @@ def _together(body: tuple[Assign, ...], builder: Builder) -> tuple[Assign, ...]:
     groups: dict[tuple[str, Pattern], list[tuple[Var, Coefficient]]] = {}
     for v in dict.fromkeys(v for a in sums.values() for v in a.args):
         places = [(k, c) for k, a in sums.items() for c, x in a.terms if x == v]
-        # Two values have the same ``relative`` if the coefficients of the two values in all sums are
-        # proportional.
+        # Each coefficient of v is divided by the first coefficient of v. Therefore ``relative`` is equal for
+        # two values in the same two sums, one with the coefficients 1, 2 and one with 3, 6.
         unit = places[0][1]
         relative = tuple((k, Coefficient(c.value / unit.value, c.power - unit.power)) for k, c in places)
         # ``distinct`` is False if a sum contains v twice, with different powers of h.

@@ -51,7 +51,10 @@ class PassReport:
 
     @property
     def savings(self) -> Counter[str]:
-        """The number of removed operations of each kind. Each key is a noun, such as ``exponential{s}``."""
+        """The number of removed operations of each kind.
+
+        Each key is a noun, such as ``exponential{s}``, where ``{s}`` marks the plural ending.
+        """
         # If the pass adds operations, the difference is negative. The class ``Counter`` omits negative
         # differences.
         return _nouns(self.earlier) - _nouns(self.program)

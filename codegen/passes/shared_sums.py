@@ -101,7 +101,8 @@ def _shares(assign: Assign, definitions: dict[Var, Assign]) -> dict[Share, Coeff
             groups.setdefault((source.operation, source.args[:-1]), []).append((arg, c))
     shares: dict[Share, Coefficient] = {}
     for terms in groups.values():
-        # The terms of a map are skipped if two terms contain the same variable v, for example v and h v.
+        # ``shares`` gets no entry for a linear map if two terms of this map contain the same variable v, for
+        # example v and h v.
         if len({v for v, _ in terms}) < len(terms):
             continue
         # All coefficients are divided by the first, so proportional combinations become equal.

@@ -195,10 +195,10 @@ class _Exponential:
         parameters = tuple(loops.arrays[x.name] for x in given)
         body = (*(Array(loops.arrays[x.name]) for x in local), *self.statements())
         about = (
-            "Multiply an intermediate state X of a step by the matrix exponential exp(B S B^T). All these "
-            "states have the form X = X_0 + B D with the same B, where X_0 is the initial state of the step. "
-            "X is stored as the matrix D. "
-            f"Input: core = S, an {m} x {m} matrix, and gram = B^T B. "
+            "Multiply an intermediate state X = X_0 + B D by the matrix exponential exp(B S B^T). X_0 is the "
+            "initial state of the step. All X have the same B. "
+            f"Input: core = S ({m} x {m}), gram = B^T B, and start = the first rows of D. The other rows of "
+            "D are 0. Without start, D = 0. "
             "Output: result = R with exp(B S B^T) X = X_0 + B R."
         )
         return Function(self.name, about, parameters, tuple(body))

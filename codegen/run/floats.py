@@ -52,7 +52,7 @@ class EmittedFloats(FloatDomain):
         half = 0.5 * math.sqrt(allowed)
         sine, cosine = math.sin(half), math.cos(half)
         ratio = sine / half
-        # Let r = s/2. Then c_1 = cos(r) sin(r)/r and c_2 = (sin(r)/r)^2/2.
+        # Let r = sqrt(z)/2. Then c_1 = cos(r) sin(r)/r and c_2 = (sin(r)/r)^2/2.
         closed = {0: math.cos(2.0 * half), 1: ratio * cosine, 2: 0.5 * (ratio * ratio)}
         if 3 in orders:
             # For z up to SWITCH[3], the closed form c_3 = (1 - c_1)/z loses digits.

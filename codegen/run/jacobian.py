@@ -115,8 +115,8 @@ class _Jacobian:
         )
         body: list[Statement] = []
         for held in plan.held:
-            # In C, the caller's array of inputs is ``const``, but the pointer to the inputs in a call of
-            # ``vary`` is not ``const``. Therefore the inputs are copied.
+            # In C, the caller's array of inputs is ``const``, but ``vary`` reads the inputs through a pointer
+            # without ``const``. Therefore ``vary`` gets a copy of the inputs.
             body += [Array(held), Assign(held, self.given)]
         body += [
             Assign(STATUS, code(OK)),

@@ -230,7 +230,7 @@ class _Exponential:
                 single
                 if self.level == 1
                 else f"{several}. The array 'a' contains A and then all partial derivatives of A "
-                "(also mixed ones) in which no variable occurs twice. The array 'result' contains exp(A) "
+                "with order at most 1 in each variable, such as A_xy. The array 'result' contains exp(A) "
                 "and then the same partial derivatives of exp(A)"
             )
         return (

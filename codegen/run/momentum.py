@@ -1,12 +1,12 @@
 """Conversion of the momentum between the space frame and the body frame.
 
-The caller's state contains the space momentum, but the steps of a run use the body momentum. At the beginning
-of a run, the caller's momentum is converted to the body frame, and the result is converted back to the space
-frame. At the end of the run, the new body momentum is converted to the space frame. The increase of the
-converted space momentum during the run is added to the caller's momentum.
+The caller's state contains the space momentum p, but the steps of a run use the body momentum. At the
+beginning of a run, p is converted to the body frame, and the result is converted back to a space momentum
+p_0. At the end of the run, the new body momentum is converted to a space momentum p_1. The new momentum of
+the caller is p + (p_1 - p_0).
 
 Rounding makes the group element q slightly non-orthogonal, so each conversion to the space frame has an
-error. The errors at the beginning and at the end are nearly equal, so they nearly cancel in the increase.
+error. The errors of p_0 and p_1 are nearly equal, so they nearly cancel in p_1 - p_0.
 """
 
 from __future__ import annotations

@@ -115,8 +115,8 @@ class ChainSolver:
         The border contains the coefficients of the last site's unknowns in the equations of all other sites.
         The entry belongs to equation ``i`` at ``site`` and to unknown ``j`` of the last site.
         """
-        # A column of the border is stored in the same way as the residuals, because ``substitute`` accepts a
-        # column or the residuals as the right-hand side.
+        # ``substitute`` solves linear equations. The right-hand side is either the residuals or a column of
+        # the border. Therefore each column of the border is stored in the same way as the residuals.
         return self.work[row_of(self.step, j * self.n + i + self.newton.border) + site]
 
     def opening(self) -> list[Statement]:

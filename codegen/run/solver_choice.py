@@ -447,7 +447,7 @@ class _Selection:
         return f"takes {far.most} sweeps in a step of {LONGER} h"
 
     def choices(self, kernel: Kernel, reasons: list[str]) -> tuple[Choice, ...]:
-        """Return one ``Choice`` for each block of the kernel, with the reason from ``reasons``."""
+        """Return one ``Choice`` for each block of the kernel. The reason for block k is ``reasons[k]``."""
         choices = []
         for k, (loop, reason) in enumerate(zip(kernel.loops, reasons, strict=True)):
             # ``left_out`` contains the texts for the solvers that were not tried.

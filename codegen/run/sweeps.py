@@ -306,7 +306,7 @@ class _Newton(_Loop):
         return both(STATUS.equals(code(NOT_CONVERGED)), negated(self.age > 0))
 
     def by_residuals(self) -> list[Statement]:
-        """Return the loop for equations r(u) = 0. The attribute ``images`` contains the residuals r(u)."""
+        """Return the loop for equations r(u) = 0. A sweep computes the residuals r(u) in ``self.images``."""
         rule, changes = self.rule, [own(c) for c in self.newton.changes]
         sequence, body = self.begin(), self.computed()
         inverted = not self.newton.inverted

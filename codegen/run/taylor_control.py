@@ -293,7 +293,7 @@ class _Controlled:
             For(k, whole(self.degree - 1), inner),
         )
         about = (
-            f"The Taylor coefficients 1 to {self.degree} of the solution, one order after the other. "
+            f"Store the Taylor coefficients 1 to {self.degree} of the solution, lowest order first. "
             "The arrays left and right contain the coefficients of the operands of all products."
         )
         return Function(EXPAND, about, (self.start, *self.moment, self.series), body, guard=RAISES_NAN)
@@ -322,7 +322,7 @@ class _Controlled:
             *computed(own),
             *stored(self.series, [value(x) for x in own.arrangement.outputs]),
         ]
-        about = f"The Taylor coefficients 1 to {self.degree} of the solution, one order after the other."
+        about = f"Store the Taylor coefficients 1 to {self.degree} of the solution, lowest order first."
         parameters = (self.start, *self.moment, self.series)
         return Function(EXPAND, about, parameters, tuple(body), guard=RAISES_NAN)
 

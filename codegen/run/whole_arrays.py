@@ -15,7 +15,7 @@ from codegen.run.language import Array, Call, Statement, terms
 from codegen.run.terms import Term, own
 
 SHORTEST = 25
-"""Arrays with at least this number of entries are passed, tested and copied as a whole.
+"""Arrays with at least this number of entries are passed, copied and tested for finiteness as a whole.
 
 The entries of a shorter array are scalar variables, which a compiler can keep in registers.
 """

@@ -7,8 +7,8 @@ In a Hamiltonian scene with the group element q, the momentum mu can be replaced
 in the body frame. The equations are then q' = q.W and P' = N with the velocity W and the force N in the body
 frame (:mod:`codegen.scene.body_frame`).
 
-A coordinate c of q can be omitted if the other coordinates determine c and the equations of the other
-coordinates do not contain c.
+A coordinate c of q can be omitted if c is a function of the remaining coordinates and if the equations of the
+remaining coordinates do not contain c.
 """
 
 from __future__ import annotations

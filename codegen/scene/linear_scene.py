@@ -85,7 +85,8 @@ def LinearScene(
 def _steps(scene: Problem, steps: Mapping[str, tuple[MatrixFormula, int]]) -> dict[str, MatrixStep]:
     """Return a :class:`MatrixStep` for each name in ``steps``.
 
-    SceneError is raised for a formula or an order that the scene does not permit.
+    SceneError is raised if the scene does not permit a formula, or if the order of accuracy of a step is
+    not a positive integer.
     """
     matrices = scene.group.offers(MatrixElements)
     for name, (formula, order) in steps.items():

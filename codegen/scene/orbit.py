@@ -38,8 +38,8 @@ NEAR, NEAR_STEPS = 2, 100
 """NEAR is the largest number of sample points near the initial state. The time between these points is the
 time span of the scene divided by NEAR_STEPS.
 
-NEAR is 2 because of scenes whose force is zero at the initial state. Then the momentum at the first point may
-equal the initial momentum, and only the second point may have a different momentum.
+NEAR is 2, because one point is not sufficient if the force is zero at the initial state: the momentum at the
+first point can equal the initial momentum. The momentum at the second point is usually different.
 """
 
 

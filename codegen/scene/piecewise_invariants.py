@@ -99,11 +99,11 @@ class _Check:
         return True
 
     def combinations(self, nodes: Sequence[Expr]) -> Iterator[Sides]:
-        """Return all possible combinations of cases of the selections ``nodes``.
+        """Yield all possible combinations of one case for each operation in ``nodes``.
 
-        The sign of x determines the cases of abs(x), choose(x, a, b) and abs(-x). Therefore abs(x) and
-        choose(x, a, b) have the same case, and abs(-x) has the other case. Tables with the same argument and
-        the same knots have the same case.
+        For example, abs(x) has the cases x and -x. The sign of x determines the cases of abs(x),
+        choose(x, a, b) and abs(-x). Therefore abs(x) and choose(x, a, b) have the same case, and abs(-x) has
+        the other case. Tables with the same argument and the same knots have the same case.
         """
         keys = [_key(node) for node in nodes]
         counts: dict[object, int] = {

@@ -81,12 +81,18 @@ def neighbour(y: Iterable[sympy.Symbol], offset: Sequence[int]) -> sympy.Matrix:
 
 
 def left(y: Iterable[sympy.Symbol]) -> sympy.Matrix:
-    """Return the column of the coordinates of the left neighbour in a chain."""
+    """Return a column vector of symbols for the coordinates of the left neighbour in a chain.
+
+    ``y`` contains the symbols for the coordinates of the site itself.
+    """
     return neighbour(y, (-1,))
 
 
 def right(y: Iterable[sympy.Symbol]) -> sympy.Matrix:
-    """Return the column of the coordinates of the right neighbour in a chain."""
+    """Return a column vector of symbols for the coordinates of the right neighbour in a chain.
+
+    ``y`` contains the symbols for the coordinates of the site itself.
+    """
     return neighbour(y, (1,))
 
 

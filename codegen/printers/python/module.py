@@ -99,7 +99,8 @@ class _Module:
     def called(self) -> set[str]:
         """The library functions that the module calls. The names are those of :mod:`codegen.run.terms`."""
         functions = [t for f in self.unit.functions for t in terms(f.body)]
-        # The terms ``finite`` and ``infinity`` are not calls, but their text also needs imported names.
+        # The terms ``finite`` and ``infinity`` are not calls, but they are printed with the names
+        # ``isfinite`` and ``inf``, which must be imported.
         names = {t.text for t in functions if t.op == "call"}
         names |= {t.op for t in functions if t.op in ("finite", "infinity")}
         # A guard that returns NaNs needs the name ``nan``.
