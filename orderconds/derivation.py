@@ -18,7 +18,7 @@ class Derivation:
     """The conditions of ``family`` (a label such as ``rkmk(1)``) up to ``order``.
 
     ``by_order[n - 1]`` contains the conditions of order n. The tuple :attr:`conditions` contains all
-    conditions. For a derivation, ``len``, indices and iteration refer to this tuple.
+    conditions. If d is a derivation, ``len(d)``, ``d[k]`` and ``iter(d)`` use the tuple ``d.conditions``.
 
     >>> derivation = derive("rk", order=3)
     >>> derivation, len(derivation)

@@ -54,8 +54,9 @@ def _judged(
     """Return the verdicts on the conditions of order n for dense output, and the conditions that fail.
 
     Both sides of each condition are polynomials in theta. The coefficients of theta^p on both sides are
-    compared for p = 1, 2, ... The comparison ends at the first p for which a condition fails. Then only the
-    verdicts and the failing conditions for this p are returned.
+    compared for p = 1, 2, ... The comparison ends at the first p for which a condition fails, and the result
+    contains only the verdicts and the failing conditions for this p. If no condition fails, the result
+    contains the verdicts for all p, and an empty tuple.
     """
     family = families.get("rk")
     verdicts: set[str] = set()

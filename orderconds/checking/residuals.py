@@ -30,10 +30,10 @@ if TYPE_CHECKING:
     from flint import arb
 
 RESOLUTION = Decimal("1e-3")
-"""A bound that separates the verdicts ``supported`` and ``undecided`` on a condition of order n.
+"""If a residual is a ball that contains zero and other numbers, the radius of the ball decides the verdict.
 
-Both verdicts mean that the residual is a ball that contains zero and other numbers. The verdict is
-``supported`` if the radius of the ball is at most RESOLUTION/n!, and ``undecided`` if the radius is larger.
+For a condition of order n, the verdict is ``supported`` if the radius is at most RESOLUTION/n!, and
+``undecided`` if the radius is larger.
 """
 
 BITS = 256

@@ -430,9 +430,9 @@ def _broken_extension(dense: ExtensionOrder | None) -> Iterator[str]:
 def _missing_claims(enclosed: Tableau, tableau: Tableau) -> Iterator[str]:
     """Yield a message for each family in which the file should claim an order, but does not.
 
-    The order in the message is the order of ``enclosed``. If ``tableau`` has rounded coefficients, and exact
-    coefficients are proved to exist, the coefficients of ``enclosed`` are intervals that contain the exact
-    coefficients. Otherwise ``enclosed`` is ``tableau``.
+    The order in the message is the order of ``enclosed``. If :func:`_proof` proves that the equations in the
+    table ``[proof]`` have a solution, ``enclosed`` contains this solution as intervals. Otherwise,
+    ``enclosed`` is ``tableau``.
     """
     from orderconds.checking.claimable import unclaimed
 

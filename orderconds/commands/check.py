@@ -410,7 +410,7 @@ def _proof(proof: Certificate) -> str:
     """Return one line that describes the result of ``proof``."""
     text = (
         f"the {proof.equations} equations from [proof] have exactly one solution "
-        f"within {proof.radius} of the decimals"
+        f"within {proof.radius} of the rounded decimals in the file"
     )
     if not proof.printed:
         return text

@@ -47,8 +47,8 @@ if TYPE_CHECKING:
     "--symmetric",
     is_flag=True,
     help="Search only for symmetric methods. A method is symmetric if a step of length -h undoes a step of "
-    "length h. If the method has a Butcher tableau, only the Runge-Kutta method of this tableau must be "
-    "symmetric.",
+    "length h. If a Lie group method has a Butcher tableau, the Runge-Kutta method of this tableau must be "
+    "symmetric, but the Lie group method need not be symmetric.",
 )
 @click.option(
     "--fsal",

@@ -57,7 +57,7 @@ def put_tableau(output: str, to: str, data: Data, toml: str | None = None) -> No
 
 
 def note_left_out(data: Data, to: str) -> None:
-    """Print a note on stderr about each key of ``data`` that a file in the format ``to`` omits.
+    """Print a note on stderr about each key of ``data`` that is missing in a file of the format ``to``.
 
     >>> note_left_out({"name": "m", "proof": {"conditions": "cg", "order": 4}}, "json")
     """

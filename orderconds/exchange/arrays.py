@@ -44,7 +44,7 @@ KEYS = frozenset((*TEXTS, *ROWS, *MATRICES, "embedded", "stage", "update", "low_
 """Keys of a tableau file. The function :func:`to_arrays` represents the values of these keys. The function
 omits all other keys."""
 ROUNDED = 12
-"""A decimal in an imported file is considered exact if it has fewer significant digits than this number."""
+"""A decimal in an imported file is considered exact if it has fewer than ROUNDED significant digits."""
 
 
 def to_arrays(data: Data, target: str) -> Arrays:

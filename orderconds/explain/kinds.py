@@ -130,9 +130,9 @@ def of_family(label: str) -> Kind | None:
 
 
 def refuse_too_many_trees(family: Family, order: int) -> None:
-    """Raise an InputError if ``family`` has more than :data:`MAX_TREES` trees of the same order.
+    """Raise an InputError if ``family`` has more than :data:`MAX_TREES` trees of one of the orders 1, ..., n.
 
-    The tested orders are at most ``order`` and at most ``family.order_bound``.
+    Here n is ``order``, or ``family.order_bound`` if this bound is smaller.
 
     >>> refuse_too_many_trees(families.get("rk"), 12)
     """

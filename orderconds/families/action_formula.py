@@ -236,8 +236,9 @@ class CrouchGrossmanFormula(ExponentialsFormula):
 
         The group element belongs to stage ``row``. If ``row`` is None, the group element is the update.
 
-        The word consists of the trees in ``before``, a new letter x, and the trees in ``after``. The velocity
-        of stage ``stage`` is a linear combination of trees, to which the letter x is added.
+        The word consists of the trees in ``before``, a new letter x, and the trees in ``after``. The letter x
+        comes from stage ``stage``: the velocity of this stage is the sum of x and a linear combination of
+        trees.
         """
         return product(_runge_kutta(row, stage), self.around(row, stage, before, after))
 
@@ -272,8 +273,9 @@ class CommutatorFreeFormula(ExponentialsFormula):
 
         The group element belongs to stage ``row``. If ``row`` is None, the group element is the update.
 
-        The word consists of the trees in ``before``, a new letter x, and the trees in ``after``. The velocity
-        of stage ``stage`` is a linear combination of trees, to which the letter x is added.
+        The word consists of the trees in ``before``, a new letter x, and the trees in ``after``. The letter x
+        comes from stage ``stage``: the velocity of this stage is the sum of x and a linear combination of
+        trees.
         """
         place = self.place()
         inner = product(self._entry(row, place, stage), self.around(row, place, before, after))
@@ -318,8 +320,9 @@ class MuntheKaasFormula(ActionFormula):
 
         The exponential belongs to stage ``row``, or to the update if ``row`` is None.
 
-        The word consists of the trees in ``before``, a new letter x, and the trees in ``after``. The velocity
-        of stage ``stage`` is a linear combination of trees, to which the letter x is added.
+        The word consists of the trees in ``before``, a new letter x, and the trees in ``after``. The letter x
+        comes from stage ``stage``: the velocity of this stage is the sum of x and a linear combination of
+        trees.
         """
         return self._exponential(row, (*before, stage, *after))
 

@@ -260,7 +260,8 @@ class Family(ABC):
     def claimable(cls, tableau: Tableau) -> Self | None:
         """Return this family if the file of ``tableau`` should claim an order in this family, else None.
 
-        If the claim is missing, :func:`orderconds.check` with ``complete=True`` reports a broken claim.
+        If the file should claim an order but claims none, the verdict of :func:`orderconds.check` with
+        ``complete=True`` is ``fails``.
         """
         return None
 

@@ -6,11 +6,11 @@ polynomial are computed from random methods and from the exact flow.
 
 Three relations of order 4 hold for variational Crouch-Grossman methods, but not for variational
 commutator-free methods. Let psi_p be the coefficient of a g*-valued tree p in the momentum of a stage
-(:mod:`orderconds.series.action`). The module :mod:`orderconds.series.action_trees` defines the g-valued trees
-``o(w|M)`` with a word w and a multiset M, and the g*-valued trees ``L(w)`` with a word w. Let s be the
-g-valued tree ``o`` with one vertex, and let t be the g-valued tree ``o(|L(o))``. Each stage of a variational
-Crouch-Grossman method satisfies ``psi_{L(t)} = 3 psi_{L(s s)} - psi_{L(s)}^2``. This equation implies the
-three relations.
+(:mod:`orderconds.series.action`). A g-valued tree ``o(w|M)`` contains a word w of g-valued trees and a
+multiset M of g*-valued trees. A g*-valued tree ``L(w)`` contains a word w of g-valued trees
+(:mod:`orderconds.series.action_trees`). Let s be the g-valued tree ``o`` with one vertex, and let t be the
+g-valued tree ``o(|L(o))``. Each stage of a variational Crouch-Grossman method satisfies
+``psi_{L(t)} = 3 psi_{L(s s)} - psi_{L(s)}^2``. This equation implies the three relations.
 """
 
 from __future__ import annotations

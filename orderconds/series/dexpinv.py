@@ -112,11 +112,11 @@ class DexpinvSeries:
         return sums
 
     def _around(self, before: int, start: Forest, behind: int, end: Forest) -> list[Element] | None:
-        """Return a list with one entry for each stage: the coefficient of one word in the truncated series
-        dexpinv_u x. Here u is the argument of the stage, and x is a letter. The word consists of the letters
-        of ``start``, the letter x, and the letters of ``end``, in this order. Return None if no term of the
-        series can contain this word. ``before`` and ``behind`` are the numbers of letters in ``start`` and
-        ``end``."""
+        """Return a list with one entry for each stage i: the coefficient of one word in the truncated series
+        dexpinv_{u_i} x. Here exp(u_i) y0 is the value of stage i, and x is a letter. The word consists of the
+        letters of ``start``, the letter x, and the letters of ``end``, in this order. Return None if no term
+        of the series can contain this word. ``before`` and ``behind`` are the numbers of letters in ``start``
+        and ``end``."""
         values = None
         for q, m, n in self._present(before, behind):
             if m and n:
@@ -197,6 +197,7 @@ def _cuts(word: Forest) -> list[int]:
 
 
 def _pointed(word: Forest) -> list[tuple[int, Tree, int]]:
-    """Divide a word into letters (ordered trees). Return a triple (start, letter, end) for each letter."""
+    """Divide a word into letters (ordered trees). For each letter ``word[start:end]``, return the triple
+    (start, letter, end)."""
     cuts = [0, *_cuts(word), len(word)]
     return [(start, word[start:end], end) for start, end in pairwise(cuts)]

@@ -1,10 +1,11 @@
 """An ansatz: the text of a tableau file in which some coefficients are unknown.
 
-The coefficients are evaluated in three ways:
+The coefficients are evaluated in four ways:
 
-- with a record of all operations, for the numerical search
+- with doubles, for the numerical search
 - with integers modulo primes, for the ranks of the conditions
 - with interval arithmetic (balls), for the proof of the order
+- with polynomials, for the proof that no method exists
 """
 
 from __future__ import annotations

@@ -16,13 +16,15 @@ from orderconds.solve.spec import Spec, refuse
 from orderconds.solve.tableau_ansatz import tableau_structures
 
 MIRRORED = (
-    "the update has the exponents Y_1, ..., Y_m; stage i has the exponents Y_1, ..., Y_k, X_i1, X_i2, ..., "
-    "where k depends on i, and stage j = s + 1 - i has m - k in place of k (s is the number of stages); for "
-    "J = 1, ..., m, Y_J with its coefficients in reverse order is Y_(m+1-J); -X_ir with its coefficients in "
-    "reverse order is X_jr; if m and s are odd, the middle stage i = (s+1)/2 has (1/2) Y_((m+1)/2) as an "
-    "additional exponent directly before X_i1"
+    "the update has the exponents Y_1, ..., Y_m, and stage i ends with the exponents X_i1, X_i2, ...; bar X "
+    "denotes the exponent X with its coefficients in reverse order; Y_I = bar Y_J if I + J = m + 1; "
+    "X_ir = -bar X_jr if i + j = s + 1, where s is the number of stages; if m and s are odd, the middle "
+    "stage i = (s+1)/2 has the additional exponent (1/2) Y_((m+1)/2) directly before X_i1"
 )
-"""The assumptions about symmetric methods (:mod:`orderconds.solve.paths`)."""
+"""The assumptions about the exponents of symmetric methods (:mod:`orderconds.solve.paths`).
+
+The function :func:`_numbers_of_exponentials` states with which exponents stage i begins.
+"""
 
 
 def path_structures(family: Family, spec: Spec) -> tuple[str, ...]:

@@ -22,9 +22,9 @@ def uncertainty(tableau: Tableau, bits: int) -> str:
     """Return the largest radius of an inaccurate coefficient, as a decimal with two digits. If all
     coefficients are accurate, the result is empty.
 
-    A coefficient is inaccurate if the radius of its ball (interval) exceeds the error of one rounding to
-    ``bits`` bits. There is one exception: a double, such as ``0.1d``, is accurate if its ball has the default
-    radius, although this radius allows for several roundings (:func:`~orderconds.tableau.doubles.radius`).
+    A coefficient counts as accurate if the radius of its ball (interval) is at most the error of one rounding
+    to ``bits`` bits. A double, such as ``0.1d``, also counts as accurate if its ball has the default radius
+    (:func:`~orderconds.tableau.doubles.radius`).
 
     >>> from orderconds.tableau import find
     >>> uncertainty(Tableau.load(find("rk4")), 53)

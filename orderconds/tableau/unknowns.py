@@ -47,8 +47,8 @@ class RootedRing(Ring, Protocol):
 
 
 class Unknown(Struct, frozen=True):
-    """A rounded decimal in a tableau file. ``name`` states which number or coefficient of the file contains
-    the decimal, for example ``A[2][1]``. ``constant`` is the absolute value of the decimal."""
+    """A rounded decimal in a tableau file. ``name`` is the name of the unknown that the decimal approximates,
+    for example ``A[2][1]`` (see the module docstring). ``constant`` is the absolute value of the decimal."""
 
     name: str
     constant: Constant

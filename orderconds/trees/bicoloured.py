@@ -20,8 +20,8 @@ BicolouredTree = bytes
 
 
 def bicoloured_rooted_trees(vertices: int) -> Iterator[BicolouredTree]:
-    """Yield every rooted tree with ``vertices`` vertices, each black or white, exactly once. The trees with a
-    black root come before the trees with a white root.
+    """Yield all rooted trees with ``vertices`` vertices, each tree once. Every vertex is black or white. The
+    trees with a black root come before the trees with a white root.
 
     In the example, ``.`` and ``[..]`` denote a black root, and ``o`` and ``(..)`` denote a white root.
 

@@ -55,7 +55,7 @@ class HallBasis:
         return self._of_weight[n]
 
     def rewrite(self, bracket: Bracket) -> Coordinates:
-        """Return the coordinates of any bracket of letters in the Hall basis.
+        """Return the coordinates of ``bracket`` with respect to the Hall basis.
 
         Raises :class:`ValueError` if the weight of the bracket exceeds the largest weight of the basis.
 
