@@ -98,7 +98,8 @@ class Optimiser:
         # A pass that leaves the program unchanged needs no test and no report.
         if new == old:
             return
-        # ``new`` is not compared with ``old``, but with the program that the first pass received.
+        # ``new`` is not compared with ``old``, but with the program before the first pass. If the program has
+        # substeps, one substep is compared.
         account = self.meaning.differs(new if old.substeps == () else _part(new))
         if account:
             raise IllFormed(f"the pass {each.name} changed the results of {old.name}: {account}")
