@@ -291,7 +291,7 @@ class MatrixColumns(Representation):
         return n + 1, (*rows, *(d.rational(0),) * (n + 1))
 
     def of_matrices(self, group: LieGroup) -> MatrixRepresentation | None:
-        """Return ``group``, the group whose matrices multiply the columns."""
+        """Return ``group``, because the columns are multiplied by the matrices of this group."""
         return self._matrices(group)
 
 

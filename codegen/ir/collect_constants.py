@@ -43,8 +43,8 @@ def gathered(roots: Sequence[Expr], kept: Iterable[Expr] = ()) -> tuple[Expr, ..
     work = _Gathering(_powers(roots, bare))
     for node in bare:
         if node.args:
-            # ``work.whole`` rewrites only nodes without entries in ``work.sums`` and ``work.written``. Here
-            # the entry in ``sums`` is 1 times the node, and the entry in ``written`` is the node itself.
+            # ``work.whole`` must not rewrite this node. It rewrites only nodes without entries in
+            # ``work.sums`` and ``work.written``, so the node gets entries that leave it unchanged.
             work.sums[node.id], work.written[node.id] = {node.id: (Number.rational(1), node)}, node
     # ``still`` contains the ids of expressions that are not rewritten. The function ``_operations`` below
     # does not count the operations in these expressions.

@@ -8,7 +8,8 @@ from codegen.ir.domain import Domain, Scalar
 class ShortChains:
     """Base class of domains in which :func:`corrected` computes (x + a) + b instead of x + (a + b).
 
-    If b is known last, only one addition follows b.
+    Often b is computed last. Then (x + a) + b is ready one addition after b, and x + (a + b) two additions
+    after b.
     """
 
 

@@ -60,10 +60,10 @@ class _Block:
     def copies(self, number: int) -> tuple[tuple[Var, Var], ...]:
         """Return pairs (unknown, new value) for the sweep with the index ``number``.
 
-        A sweep is a loop over all sites. Each iteration executes the sweeps with the indices ``first`` to
-        ``last``. Before all iterations, the sweep with the index ``first`` - 1 sets the unknowns to the
-        starting values ``solve.starts``. In each iteration, the sweep with the index ``last`` sets the
-        unknowns to ``solve.images``. For all other sweeps, the result is empty.
+        A sweep is a loop over all sites. Each iteration of the solver executes the sweeps with the indices
+        ``first`` to ``last``. Before the first iteration, the sweep with the index ``first`` - 1 sets the
+        unknowns to the starting values ``solve.starts``. In each iteration, the sweep with the index ``last``
+        sets the unknowns to ``solve.images``. For all other sweeps, the result is empty.
         """
         values = {self.first - 1: self.solve.starts, self.last: self.solve.images}.get(number, ())
         return tuple(zip(self.solve.unknowns, values, strict=True)) if values else ()

@@ -4,9 +4,9 @@ Inner products and energies are sums over all sites.
 
 Let eta be the displacement of a step, and let H0 and H1 be the total energies before and after the step. Let
 g be a covector that approximates the differential of the total energy. The discrete differential is
-D = g + (e/|eta|^2) eta, where e = H1 - H0 - <g, eta>. The difference of the three terms is
-formed at each site, and then the differences of all sites are added. Three separate sums over all sites,
-subtracted afterwards, would have a larger rounding error.
+D = g + (e/|eta|^2) eta, where e = H1 - H0 - <g, eta>. First, the contribution of each site to e is computed.
+Then the contributions are added. The difference of H1, H0 and <g, eta>, each computed as a sum over all
+sites, would have a larger rounding error.
 
 For Hamilton's equations, the canonical bivector is applied to D. For all other equations, the bivector
 (gamma wedge f)/|gamma|^2 is applied to D (:mod:`codegen.scene.energy`). Here f is the field, and gamma is the

@@ -86,8 +86,8 @@ def _together(body: tuple[Assign, ...], builder: Builder) -> tuple[Assign, ...]:
     groups: dict[tuple[str, Pattern], list[tuple[Var, Coefficient]]] = {}
     for v in dict.fromkeys(v for a in sums.values() for v in a.args):
         places = [(k, c) for k, a in sums.items() for c, x in a.terms if x == v]
-        # Each coefficient of v is divided by the first coefficient of v. Therefore ``relative`` is equal for
-        # two values in the same two sums, one with the coefficients 1, 2 and one with 3, 6.
+        # Each coefficient of v is divided by the first coefficient of v. For example, the coefficients 3, 6
+        # become 1, 2, as for another value with the coefficients 1, 2 in the same two sums.
         unit = places[0][1]
         relative = tuple((k, Coefficient(c.value / unit.value, c.power - unit.power)) for k, c in places)
         # ``distinct`` is False if a sum contains v twice, with different powers of h.

@@ -220,8 +220,8 @@ class Controlled:
             # A step that would go beyond the end is shortened.
             Assign(self.last, self.length >= size(self.left)),
             Assign(self.taken, select(self.last, self.left, call("copysign", self.length, self.left))),
-            # The last step ends exactly at ``end``. After a rounding error in ``now + taken``, a tiny step
-            # would follow.
+            # The last step ends exactly at ``end``. The rounded sum ``now + taken`` could be below ``end``,
+            # and then a tiny step would follow.
             Assign(self.following, select(self.last, self.end, self.now + self.taken)),
             If(
                 either(self.accepted_steps + self.rejected_steps >= self.limit, stuck),

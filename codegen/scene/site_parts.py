@@ -129,9 +129,9 @@ def _check_constant(scene: Problem, orbit: Orbit, part: SitePart) -> None:
                     "along the exact flow",
                     where=scene.name,
                     expected="generators f(y) for which the exact flow over a time tau is exp(tau f(y)).y",
-                    hint="split the part, or use constant generators that give the same velocity; for two "
-                    "spins with S' = J T x S and T' = J S x T, the generator J T is not constant; use J "
-                    "(S + T), which is constant because S' + T' = 0 and gives the same S' because S x S = 0",
+                    hint="split the part, or use constant generators that give the same velocity. For "
+                    "example, two spins with S' = J T x S and T' = J S x T have the generators J T and J S, "
+                    "which are not constant. The generator J (S + T) of both spins is constant",
                 )
 
 

@@ -47,8 +47,8 @@ if TYPE_CHECKING:
     "--symmetric",
     is_flag=True,
     help="Search only for symmetric methods. A method is symmetric if a step of length -h undoes a step of "
-    "length h. If a Lie group method has a Butcher tableau, the Runge-Kutta method of this tableau must be "
-    "symmetric, but the Lie group method need not be symmetric.",
+    "length h. For Lie group methods with a Butcher tableau, the option applies to the Runge-Kutta method of "
+    "the tableau. The Lie group method itself may not be symmetric.",
 )
 @click.option(
     "--fsal",

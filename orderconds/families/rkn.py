@@ -9,9 +9,10 @@ part of the local error that lies in the ideal is zero, and this part gives no o
 
 A functional is a linear map from the free algebra to the rational numbers. The functionals that are zero on
 the ideal form a vector space. Each element of a basis of this vector space gives one condition. Many of these
-conditions follow from others, because the product of two left-hand sides is a linear combination of left-hand
-sides of higher order. The numbers of independent conditions of orders 1, 2, ... are 2, 1, 2, 2, 4, 5, 10, 14,
-25, ... (McLachlan, SIAM J. Sci. Comput. 16 (1995) 151; McLachlan and Murua, J. Comput. Dyn. 6 (2019) 345).
+conditions depend on others: if two conditions hold, the product of their left-hand sides is known, and this
+product is a linear combination of left-hand sides of higher order. The numbers of independent conditions of
+orders 1, 2, ... are 2, 1, 2, 2, 4, 5, 10, 14, 25, ... (McLachlan, SIAM J. Sci. Comput. 16 (1995) 151;
+McLachlan and Murua, J. Comput. Dyn. 6 (2019) 345).
 """
 
 from __future__ import annotations

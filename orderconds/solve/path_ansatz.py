@@ -16,14 +16,15 @@ from orderconds.solve.spec import Spec, refuse
 from orderconds.solve.tableau_ansatz import tableau_structures
 
 MIRRORED = (
-    "the update has the exponents Y_1, ..., Y_m, and stage i ends with the exponents X_i1, X_i2, ...; bar X "
-    "denotes the exponent X with its coefficients in reverse order; Y_I = bar Y_J if I + J = m + 1; "
+    "Y_1, ..., Y_m are the exponents of the update, and X_i1, X_i2, ... are the other exponents of stage i; "
+    "bar X denotes the exponent X with its coefficients in reverse order; Y_I = bar Y_J if I + J = m + 1; "
     "X_ir = -bar X_jr if i + j = s + 1, where s is the number of stages; if m and s are odd, the middle "
     "stage i = (s+1)/2 has the additional exponent (1/2) Y_((m+1)/2) directly before X_i1"
 )
 """The assumptions about the exponents of symmetric methods (:mod:`orderconds.solve.paths`).
 
-The function :func:`_numbers_of_exponentials` states with which exponents stage i begins.
+The text follows a statement of :func:`_numbers_of_exponentials`: stage i begins with the first k_i
+exponentials of the update.
 """
 
 

@@ -23,7 +23,8 @@ def bicoloured_rooted_trees(vertices: int) -> Iterator[BicolouredTree]:
     """Yield all rooted trees with ``vertices`` vertices, each tree once. Every vertex is black or white. The
     trees with a black root come before the trees with a white root.
 
-    In the example, ``.`` and ``[..]`` denote a black root, and ``o`` and ``(..)`` denote a white root.
+    In the example, ``.`` is a black leaf, and ``o`` is a white leaf. Square brackets enclose the branches of
+    a black root, and round brackets enclose the branches of a white root.
 
     >>> [text(tree) for tree in bicoloured_rooted_trees(2)]
     ['[.]', '[o]', '(.)', '(o)']

@@ -174,7 +174,7 @@ class Convergence:
         if not self.refinement.settled:
             return text
         return (
-            f"{text}; with the longer steps that show the observed order, "
+            f"{text}; the usual steps are too long, because there "
             "the leading term is not the largest term of the error"
         )
 

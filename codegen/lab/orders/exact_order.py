@@ -45,7 +45,7 @@ points.
 """
 
 STEPS = 64
-"""STEPS steps lead from the initial state to each point of the solution in :data:`LATER`.
+"""The number of steps of each run from the initial state to one of the points :data:`LATER`.
 
 The computed points need not be accurate.
 """
