@@ -201,9 +201,10 @@ class _Buffers:
         real, size = interface.format.c_type, interface.size
         self.size, self.null = size, ffi.NULL
         self.events: list[tuple[int, float, int, list[float]]] = []
-        # Let n be the number of event functions. Each call of these functions empties the arrays, and then
-        # the C code stores at most n events. After that, n entries must still be free, because otherwise the
-        # C code ends the run. Therefore the arrays have n + n = 2 n entries.
+        # Let n be the number of event functions. When the C code calls the event functions, ``write`` first
+        # empties the arrays that store events. Then the C code stores at most n new events. After that, n
+        # entries must still be free, because otherwise the C code ends the run. Therefore the arrays have
+        # n + n = 2 n entries.
         self.room = 2 * interface.events
 
         def write(t: float, state: Any, array: Any, data: Any) -> None:

@@ -1,6 +1,6 @@
 """The field of a Hamiltonian as the sum of the fields of its parts.
 
-A known exact flow of a part often gives a shorter formula for the field of this part.
+The sum often needs fewer operations than the field that is derived from the whole Hamiltonian.
 """
 
 from __future__ import annotations

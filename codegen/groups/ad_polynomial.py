@@ -54,8 +54,8 @@ def _exponentials(
 ) -> tuple[S, S]:
     """Return numbers b and c such that a series in t = ad_x is equal to b t + c t^2.
 
-    The series is the sum of r exp(k t)/t^j over the pairs (k, r) in ``terms``, but the powers t^0 and t^-1
-    are omitted. Because of t^3 = -z t, the powers t^3, t^4, ... are multiples of t or t^2. The number j is 0
+    The series consists of the terms with t, t^2, t^3, ... in the sum of r exp(k t)/t^j over the pairs (k, r)
+    in ``terms``. Because of t^3 = -z t, the powers t^3, t^4, ... are multiples of t or t^2. The number j is 0
     or 1. If z can be negative, ``signed`` is true.
     """
     sums = []

@@ -148,9 +148,9 @@ class LeftTranslation(Coadjoint):
 
 
 class BodyFrame(LeftTranslation):
-    """A group with a method for the product g exp(x), where x is an element of the algebra.
+    """A group with the method :meth:`mulexp`, which computes g exp(x) for an element x of the algebra.
 
-    Integrators in the body frame use this product.
+    Integrators in the body frame use this method.
     """
 
     provides: ClassVar[str] = "body frame"
@@ -188,9 +188,9 @@ class ClosedFormSeries(Coadjoint):
         Here f is a number, and W is a product of factors as in :meth:`series`. If ``dual`` is true, ad*_x
         replaces ad_x.
 
-        The result contains the sum of the vectors f v, because the series of W begins with 1. If the caller
-        knows a faster way to compute this sum, the caller may pass a function ``total``. The argument of
-        ``total`` is a tuple of indices. ``total`` must return the sum of f v over the triples in ``terms``
+        The series of W begins with 1, so each f W(ad_x) v is f v plus further terms. If the caller knows a
+        faster way to compute sums of the vectors f v, the caller may pass a function ``total``. The argument
+        of ``total`` is a tuple of indices. ``total`` must return the sum of f v over the triples in ``terms``
         with these indices. The method chooses the indices, and need not call ``total``. If ``total`` is None,
         the method itself adds the vectors f v.
         """

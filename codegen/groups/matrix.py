@@ -70,9 +70,10 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
         return _weighted(d, self.algebra.dual_places, mu)
 
     def dual_vee(self, d: Domain, matrix: Vector[S]) -> Vector[S]:
-        """Return the element mu of the dual with <mu, x> = sum_ij M_ij A_ij for all x, where A = hat(x).
+        """Return the element mu of the dual that belongs to the n x n matrix M = ``matrix``.
 
-        The argument ``matrix`` is M. Every n x n matrix M is allowed.
+        The element mu satisfies <mu, x> = sum_ij M_ij A_ij for all x, where A = hat(x). Every n x n matrix M
+        is allowed.
         """
         return _weighted(d, self.algebra.basis, matrix)
 
@@ -227,7 +228,7 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
     def _transported(
         self, d: Domain, x: Vector[S], n: Vector[S], mu: Vector[S]
     ) -> tuple[Vector[S], Vector[S]]:
-        """Return exp(x) and the momentum p, the result of ``transport(x, n, mu)``.
+        """Return the pair (exp(x), p) with the momentum p = transport(x, n, mu).
 
         The momentum p is computed with matrices. Let M = dual_hat(mu), N = dual_hat(n) and
         R = exp(x) M^T exp(-x) + dexp_x N^T. Then p = dual_vee(R^T).

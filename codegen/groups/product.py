@@ -59,8 +59,7 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
         Otherwise return None.
         """
         own = super().offers(capability)
-        # The factors of a direct product need not be direct products. Therefore the factors are not tested if
-        # ``capability`` is DirectProduct or a base class of DirectProduct.
+        # Without these two lines, DirectProduct would require that all factors are direct products, too.
         if issubclass(DirectProduct, capability):
             return own
         return own if all(f.offers(capability) is not None for f in self.factors) else None

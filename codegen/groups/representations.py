@@ -291,7 +291,7 @@ class MatrixColumns(Representation):
         return n + 1, (*rows, *(d.rational(0),) * (n + 1))
 
     def of_matrices(self, group: LieGroup) -> MatrixRepresentation | None:
-        """Return ``group``, because the columns are multiplied by the matrices of this group."""
+        """Return ``group``, the group whose matrices multiply the vectors of this representation."""
         return self._matrices(group)
 
 

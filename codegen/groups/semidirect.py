@@ -162,7 +162,7 @@ class Semidirect(
         defined in :meth:`exp`.
         """
         q, y = self._element(g)[0], self._split(x)[0]
-        # The linear factor may have a formula for exp(y) q that is shorter than the product of exp(y) and q.
+        # ``self.linear.expmul`` can need fewer operations than ``self.linear.mul`` for exp(y) and q.
         return self.linear.expmul(d, y, q) + self.move(d, self.exp(d, x), self._element(g)[1])
 
     def cay(self, d: Domain, x: Vector[S]) -> Vector[S]:

@@ -51,13 +51,12 @@ class AddUnit:
 
 @dataclass(frozen=True)
 class Move:
-    """A statement that computes the displacement D of the point exp(B S B^T) X for a given point X. The
-    displacement is defined by exp(B S B^T) X = X_0 + B D. The statement assigns D to ``target``.
+    """A statement that assigns to ``target`` the matrix D with exp(B S B^T) X = X_0 + B D.
 
     - X_0 is the state at the start of the step.
     - B is the basis of the step (see the beginning of this module).
     - ``core`` is S, and ``gram`` is B^T B.
-    - ``start`` is the displacement D_0 of X, defined by X = X_0 + B D_0. If X is X_0, ``start`` is None.
+    - ``start`` is the matrix D_0 that defines the point X = X_0 + B D_0. If X is X_0, ``start`` is None.
     - ``start`` may have fewer rows than ``target``. The missing rows are zero.
     """
 

@@ -25,9 +25,9 @@ def gathered(roots: Sequence[Expr], kept: Iterable[Expr] = ()) -> tuple[Expr, ..
     If this does not reduce the number of operations, ``roots`` is returned unchanged.
 
     ``kept`` contains expressions that are needed outside ``roots``, too. Each of these expressions has the
-    form c x with a number c, which may be 1. The expression x remains unchanged in ``roots``,
-    because otherwise x and a new form of x would both be computed. The number c is combined with other
-    constants in ``roots``.
+    form c x with a number c, which may be 1. Because x must be computed anyway, x is not rewritten in
+    ``roots``: a new form of x would need additional operations. The number c is combined with other constants
+    in ``roots``.
 
     >>> from codegen.ir.expr import Space
     >>> space = Space()
@@ -85,18 +85,19 @@ def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int,
         inside = [ranks[a.id] for a in node.args if a.id in ranks]
         root = _is_inverse(node) and node.args[1].op == "call" and node.args[1].payload == "sqrt"
         if root and node.id not in still:
-            # ``ranks`` contains (node number of y, n) for y^n, where y = 1/sqrt x. Here ``node`` is y = y^1.
+            # ``ranks`` maps the node number of y^n, where y = 1/sqrt x, to the pair (node number of y, n). In
+            # the next line, ``node`` is y = y^1.
             ranks[node.id] = (node.id, 1)
         elif _is_power(node, inside):
             # Exponents are added in a product, and multiplied in a power of a power.
             exponent = sum(n for _, n in inside)
             ranks[node.id] = (inside[0][0], exponent * (node.payload or 1))
-    # Let c be a number, and y = 1/sqrt x. For each node c y^n that was found, ``ranks`` contains the pair
-    # (node number of y, n). The set ``read`` contains this pair in two cases: c y^n is an element of
-    # ``roots``, or c y^n is an argument of a node that has no pair in ``ranks``.
+    # ``read`` contains the pair (node number of y, n) of each node c y^n that occurs in ``roots`` outside of
+    # other powers of y. Here y = 1/sqrt x, and c is a number. For example, if the only root is z y^3 with a
+    # symbol z, ``read`` contains the pair of y^3, but not the pair of y.
     read = {ranks[x.id] for x, by in used if x.id in ranks and (by is None or by.id not in ranks)}
-    # If a pair in ``read`` belongs to y itself or to an even power of y, no power of y is rewritten as a
-    # quotient. ``bases`` contains the node numbers of these nodes y.
+    # ``bases`` contains the node number of each y = 1/sqrt x for which ``read`` contains a pair with n = 1 or
+    # with an even n. The powers of these y are not rewritten as quotients.
     bases = {base for base, n in read if n == 1 or n % 2 == 0}
     return {key: pair for key, pair in ranks.items() if pair[0] not in bases}
 

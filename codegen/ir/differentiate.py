@@ -45,9 +45,9 @@ def gradient(root: Expr, symbols: Sequence[str]) -> list[Expr]:
 def partials(node: Expr, moving: Container[int] | None = None) -> list[Expr]:
     """Return the partial derivatives of a node with respect to its arguments, in the order of the arguments.
 
-    For a result of a vector function, derivatives are computed only with respect to arguments whose node
-    numbers are in ``moving``. For the other arguments, zero is returned. If ``moving`` is None, all
-    derivatives are computed.
+    If the node is a call of a vector function and ``moving`` is not None, derivatives are computed only with
+    respect to arguments whose node numbers are in ``moving``. For the other arguments, zero is returned. In
+    all other cases, all derivatives are computed.
 
     :class:`NotDifferentiable` is raised for a function that has no rule for its derivative.
     """
@@ -60,9 +60,9 @@ def partials(node: Expr, moving: Container[int] | None = None) -> list[Expr]:
         case "mul":
             return [args[1], args[0]]
         case "div":
-            # The node is a/b, so 1/b is the only new division.
+            # The derivatives of a/b are 1/b and -a/b^2 = -(a/b) (1/b). Only 1/b needs a new division, because
+            # a/b is ``node``.
             inverse = space.one / args[1]
-            # The derivative -a/b^2 equals -(a/b)/b, so the existing node a/b is used again.
             return [inverse, -(node * inverse)]
         case "neg":
             return [-space.one]

@@ -344,8 +344,8 @@ class SeriesDomain:
 
     def call(self, function: str, *args: Scalar) -> Scalar:
         """Apply ``function`` to the power series ``args``. ArithmeticError is raised if the result cannot be
-        computed exactly. If the divisor of ``quotient`` begins with the power h^v, the last v coefficients of
-        the quotient are unknown and set to zero.
+        computed exactly, with one exception: if ``function`` is "quotient" and the divisor begins with the
+        power h^v, the last v coefficients of the result can be wrong, because of the truncated powers of h.
         """
         z = args[0]
         if function == "quotient":

@@ -102,7 +102,7 @@ class ExponentialAction(VectorFunction):
 
     @property
     def rows(self) -> tuple[tuple[tuple[int, int], ...], ...]:
-        """The entries of A that are arguments, row by row, as pairs (index of the argument, column of A).
+        """One tuple of pairs (k, j) for each row of A: argument k of the function is the entry in column j.
 
         If all entries of a 2 x 2 matrix are arguments, the rows are ((0, 0), (1, 1)) and ((2, 0), (3, 1)).
         """
@@ -255,8 +255,8 @@ class ExponentialAction(VectorFunction):
         """
         entries, rows = len(self.places), self.rows
         total = term = list(args[entries:])
-        # The loop tests the terms A^k y/k! for k = 1, ..., ``longest``. In a finite series, at least the last
-        # of these terms is zero.
+        # The power series in y have N = n (``ring.order`` + 1) coefficients in all. By linear algebra, if
+        # A^k y = 0 for some k, then A^N y = 0. The loop finds this zero term, because N < ``longest``.
         longest = self.n * (ring.order + 2)
         for k in range(1, longest + 1):
             factor = ring.rational(1, k)

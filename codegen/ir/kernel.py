@@ -229,7 +229,7 @@ class Field:
 
 @dataclass(frozen=True)
 class Deferred:
-    """A run of a splitting method that joins flows of successive steps, or applies flows once for all steps.
+    """A run of a splitting method, where some flows are joined across steps or applied only at the end.
 
     A run has at most :data:`LONGEST` steps. The run calls ``begin``, then the kernel of the step once for
     each step, and then ``finish``.

@@ -48,9 +48,9 @@ def pairs(level: int) -> Pairs:
     >>> pairs(1)
     (((0, 0),), ((0, 1), (1, 0)))
     """
-    # Each term of a jet is a matrix times a product of symbols d_i. Bit i of the index of the matrix is 1 if
-    # d_i is a factor of this product. If bit i is 1 in two indices, the product of the two terms is zero,
-    # because d_i^2 = 0.
+    # Term j of the jet A is the matrix A_j times a product of symbols d_i. The symbol d_i is a factor of this
+    # product if bit i of the number j is 1. If bit i is 1 in the numbers j and k of two terms, the product of
+    # the two terms is zero, because d_i^2 = 0.
     masks = range(2**level)
     return tuple(tuple((a, m ^ a) for a in masks if a & m == a) for m in masks)
 
@@ -197,7 +197,7 @@ def _squared(n: int, level: int, total: list[float], squarings: int, growth: flo
     """
     size, unit = n * n, 2.0**-53
     # ``error`` is a bound of the error of the first matrix of the jet, ``total[:size]``. The next line
-    # sets the bound before the first squaring.
+    # is the bound for the matrix that has not been squared yet.
     error = (n + 8) * unit * n
     for _ in range(squarings):
         # Both ``growth`` and the Frobenius norm are bounds of the spectral norm of ``total[:size]``.
@@ -223,7 +223,7 @@ def in_digits(context: Any, n: int, level: int, a: Sequence[Scalar]) -> tuple[Sc
 
 
 def over_series(ring: Any, longest: int, n: int, level: int, a: Sequence[Scalar]) -> tuple[Scalar, ...]:
-    """Return the exponential of a jet with power series as entries.
+    """Return the exponential of a jet. The entries of the matrices of the jet are power series.
 
     ``a`` contains the entries of the 2^``level`` matrices of the jet (see the module docstring).
 

@@ -66,7 +66,7 @@ class MatrixExponential(VectorFunction):
         return tuple(results[self.size :])
 
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
-        """Return the sum 1 + A + A^2/2 + ... if it has at most :data:`EXPANDED` terms, otherwise None.
+        """Return the sum of the terms A^k/k! if at most :data:`EXPANDED` terms are non-zero, otherwise None.
 
         A is the jet ``args`` (a matrix with its derivatives).
         """

@@ -64,7 +64,8 @@ class BilinearFunction(VectorFunction):
         ``args`` are the entries of a and b, and ``argument`` is the index of this one entry in ``args``.
         """
         space = args[0].space
-        # The derivative is f(E, b) or f(a, E), where one entry of the matrix E is 1 and the others are 0.
+        # The derivative of f(a, b) with respect to an entry of a is f(E, b), and with respect to an entry of
+        # b, it is f(a, E). The entry of E at the same position is 1, and all other entries of E are 0.
         unit = [space.one if k == argument else space.zero for k in range(len(args))]
         # If ``args[argument]`` is an entry of a, ``half`` selects the entries of a from ``args``. Otherwise
         # ``half`` selects the entries of b.

@@ -85,7 +85,7 @@ class Multiplier:
             # At 0, POWER has the value 0, EXP has the value 1, and PHI and BERNOULLI have the limit 1.
             return cls.constant(Number.rational(0) if function == POWER else ONE)
         if function == POWER:
-            # The function POWER is f(z) = z, so f(``scale`` * z) is the term ``scale`` * z.
+            # The result ``scale`` * z is the factor z with the coefficient ``scale``.
             return cls({((Factor(POWER, ONE), 1),): scale})
         return cls({((Factor(function, scale), 1),): ONE})
 
@@ -148,6 +148,7 @@ class Multiplier:
 def _product(a: Monomial, b: Monomial) -> Monomial:
     """Return the product of two monomials. Exponentials satisfy exp(a z) exp(b z) = exp((a + b) z)."""
     powers: dict[Factor, int] = {}
+    # ``a`` and ``b`` are products of functions of z, where z is h times an eigenvalue of the linear operator.
     # The product of all exponentials in ``a`` and ``b`` is exp(``exponent`` z).
     exponent = Number.rational(0)
     for factor, n in (*a, *b):
