@@ -494,5 +494,5 @@ class AdSeries(Operation):
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return f_1(L) ... f_n(L) y for ``args`` = (x, y). Here f_1, ..., f_n are the functions in
         ``self.word``, and L is ad_x, or ad*_x if ``self.dual`` is true."""
-        # The factors are functions of the same operator ad_x and commute.
+        # The operators f_1(L), ..., f_n(L) commute, so the order in which they are applied does not matter.
         return (problem.series(domain, self.word, self.dual, *args),)

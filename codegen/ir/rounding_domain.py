@@ -19,12 +19,13 @@ from codegen.ir.domain import PreciseDomain, Scalar
 from codegen.ir.number import Number
 
 GUARD_DIGITS = 12
-"""A number is zero up to rounding if its absolute value is at most 10^(GUARD_DIGITS - digits) s.
+"""The number of decimal digits that are ignored in the decision whether a number x is zero.
 
-Here s is an estimate of the size of the numbers that cancelled in the computation (:class:`Sized`), and
-``digits`` is the number of decimal digits of the computation. The sizes are estimates, because the errors of
-matrix exponentials and inverses are not known exactly. The factor 10^12 is a wide margin for these errors.
-With 40 digits, 28 digits remain for the decision.
+Let s be an estimate of the size of the numbers that cancelled in the computation of x (:class:`Sized`), and
+let ``digits`` be the number of decimal digits of the computation. Then x is zero up to rounding if
+|x| <= s * 10^(GUARD_DIGITS - digits). The sizes are estimates, because the errors of matrix exponentials and
+inverses are not known exactly. The factor 10^12 is a wide margin for these errors. With 40 digits, 28 digits
+remain for the decision.
 """
 
 
@@ -82,8 +83,8 @@ def _sized(x: Scalar) -> Sized:
 class RoundingDomain:
     """The arithmetic of pairs (value, size) of mpmath numbers with ``digits`` decimal digits.
 
-    The rounding error of a value is about the size times the relative precision (:class:`Sized`). The
-    operations compute the same values and raise the same errors as the operations of
+    A value has a rounding error of about eps * size, where eps is the relative precision (:class:`Sized`).
+    The operations compute the same values and raise the same errors as the operations of
     :class:`codegen.ir.domain.PreciseDomain`.
     """
 
@@ -91,7 +92,7 @@ class RoundingDomain:
         self.plain = PreciseDomain(h, digits)
         self.context = self.plain.context
         self.h = _sized(self.plain.h)
-        # The difference quotients in ``_moved`` have about half of the digits.
+        # With this increment, about half of the digits of the difference quotients in ``_moved`` are correct.
         self._shift = self.plain.rational(1, 10 ** (digits // 2))
         self._share = self.plain.rational(1, 10 ** (digits - GUARD_DIGITS))
 
@@ -125,7 +126,7 @@ class RoundingDomain:
         value = self.plain.call(function, *values)
         size = abs(value)
         for k, x in enumerate(args):
-            # If the size s_i of an argument is 0, the argument is exactly zero and its term in the sum is 0.
+            # An argument of size 0 is exactly zero. It has no rounding error and adds nothing to ``size``.
             if x.size:
 
                 def along(step: Scalar, k: int = k, x: Sized = x) -> tuple[Scalar, ...]:
@@ -139,9 +140,9 @@ class RoundingDomain:
     def vector(self, function: str, args: Sequence[Sized]) -> tuple[Sized, ...]:
         """Return the results of a vector function, with their sizes (:class:`Sized`).
 
-        The size of a result r is |r| + |q|. The difference quotient q estimates the effect of the rounding
-        errors of the arguments on r. In the difference quotient, all arguments change at the same time,
-        because one difference quotient for each argument would be expensive. The arguments change by
+        The size of a result r is |r| + |q|, where q is a difference quotient that estimates the effect of the
+        rounding errors of the arguments on r. In the difference quotient, all arguments change at the same
+        time, because one difference quotient for each argument would be expensive. The arguments change by
         different multiples of their sizes. With equal multiples, the changes of x and y could cancel in a
         result such as x - y.
         """
@@ -149,7 +150,7 @@ class RoundingDomain:
         results = self.plain.vector(function, values)
 
         def along(step: Scalar) -> tuple[Scalar, ...]:
-            # Factor k is ``step`` times an irregular number from 1 to 7/4: 1, 23/16, 17/16, 3/2, ...
+            # The factors are ``step`` * 1, ``step`` * 23/16, ``step`` * 17/16, ``step`` * 3/2, ....
             factors = (step * (16 + 7 * k % 13) / 16 for k in range(len(args)))
             return self.plain.vector(
                 function, [x.value + t * x.size for x, t in zip(args, factors, strict=True)]
@@ -175,5 +176,5 @@ class RoundingDomain:
                 continue
             if all(isinstance(x, self.context.mpf) and self.context.isfinite(x) for x in moved):
                 return [abs(a - b) / self._shift for a, b in zip(moved, values, strict=True)]
-        # Neither step gave a difference quotient. The absolute value of each result replaces its derivative.
+        # If neither increment gives a difference quotient, |f(0)| is returned in place of |f'(0)|.
         return [abs(x) for x in values]

@@ -162,8 +162,8 @@ class TaylorStep(Operation):
     """The Taylor polynomial of the solution about the time t, evaluated at t + h.
 
     The arguments are the state y at the time t and, if ``timed`` is true, t. The result contains the
-    coordinates of :class:`codegen.scene.evolution.Evolution`, for example the body momentum in place of the
-    momentum in the space frame.
+    coordinates of :class:`codegen.scene.evolution.Evolution`, which may differ from the coordinates of y. For
+    example, y may contain the momentum in the space frame, and the result the momentum in the body frame.
     """
 
     degree: int

@@ -51,9 +51,10 @@ class OrderLoop:
     - ``names`` are the names of the symbols that represent the values of ``first`` in the loop.
     - ``coordinates`` contains one symbol name for each coordinate. The symbol denotes coefficient n of the
       Taylor series of this coordinate.
-    - ``sums`` are the names of the symbols for the inner sums, the sums of a_j b_{n-j} over 0 < j < n.
-    - ``left[k]`` and ``right[k]`` are the expressions for a_n and b_n, where a and b are the two series in
-      the inner sum with the name ``sums[k]``.
+    - ``sums[k]`` is the name of the symbol for inner sum k, the sum of a_j b_{n-j} over 0 < j < n. Each inner
+      sum has its own pair of series a and b.
+    - ``left[k]`` is the expression for coefficient n of the series a in inner sum k.
+    - ``right[k]`` is the expression for coefficient n of the series b in inner sum k.
     - ``start`` are the expressions for coefficient 1 of each coordinate.
     - ``following`` are the expressions for coefficient n + 1 of each coordinate.
     """

@@ -59,8 +59,8 @@ class Given(Series):
 
     def following(self, n: int) -> Coefficient:
         """Return None. All nonzero coefficients of a ``closed`` series are already in ``terms``."""
-        # If ``closed`` is true, all missing coefficients are zero. For a coordinate, ``closed`` is false: a
-        # missing coefficient is unknown, and must be appended to ``terms`` before it is read.
+        # If ``closed`` is true, all missing coefficients are zero. For the series of a coordinate, ``closed``
+        # is false, and coefficient n must be in ``terms`` before ``term(n)`` is called.
         assert self.closed, f"coefficient {n} is unknown"
         return None
 
@@ -195,9 +195,9 @@ class Square(Series):
 
 
 class Slope(Series):
-    """The series s a' for a series a, where s is the time from the beginning of the step.
+    """The product s a' of the time s from the beginning of the step and the derivative a' of a series.
 
-    Coefficient n of s a' is n a_n, where a_n is coefficient n of a.
+    Coefficient n of s a' is n a_n, where a_n is coefficient n of the series.
     """
 
     def __init__(self, domain: Domain, a: Series) -> None:

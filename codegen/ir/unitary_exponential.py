@@ -76,7 +76,7 @@ class SpecialUnitaryExponential(VectorFunction):
 
     @property
     def arrays(self) -> tuple[int, ...]:
-        """The lengths of the argument arrays. The only argument array contains the eight coordinates."""
+        """The lengths of the argument arrays. The only array contains the eight coordinates of X."""
         return (COORDINATES,)
 
     @property

@@ -60,8 +60,8 @@ def refused(scene: Problem, what: str, expected: str) -> MethodError:
 class ArrayMethod:
     """A compiled method for a scene (problem) with large matrices.
 
-    ``lowered`` is the program of a step, and the compiler passes transform it to ``program``. ``trace``
-    contains a report of each pass. ``kernel`` contains the statements of the step.
+    ``lowered`` is the program of a step before the compiler passes, and ``program`` is the program after the
+    passes. ``trace`` contains a report of each pass. ``kernel`` contains the statements of the step.
     """
 
     lowered: Program

@@ -63,7 +63,7 @@ class Assignments:
             # Values that depend on the unknowns of loop k are collected in ``inside``, all others in
             # ``self.body``.
             inside: list[Let] = []
-            # If ``remembers`` is true, the statement from ``_start`` sets the initial values of all loops.
+            # If ``remembers`` is true, the ``Start`` statement sets the initial values of all loops.
             # Otherwise, each loop sets its own initial values.
             own = () if self.remembers else block.starts
             starts = tuple(self._place(x, self.body, [], -1) for x in own)
@@ -137,7 +137,7 @@ class Assignments:
                 self._place(node, self.body, [], -1)
         own: list[Let] = []
         placed = tuple(self._place(x, own, [], -1) for x in values)
-        # The loops and the outputs must not use the names in ``own``.
+        # The loops and the outputs must not read the variables that are assigned in ``own``.
         self.done = {n: x for n, x in self.done.items() if n in later}
         return Start(tuple(u for b in self.blocks for u in b.unknowns), tuple(own), placed)
 

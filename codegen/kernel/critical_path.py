@@ -35,14 +35,14 @@ as the value 1. An infinite value would change the code of the splitting methods
 """
 
 Sum = dict[Expr | None, tuple[int, Expr, Expr]]
-"""A sum of products. Each product has four factors:
+"""A sum of products s k v c and s k v with the following factors:
 
 - the sign s, which is 1 or -1,
 - a factor k that is constant in a run,
 - a factor v that may vary in a run, and
 - a factor c that depends on a longer chain of slow operations (:data:`ATOMS`) than k and v.
 
-The dictionary maps c to (s, k, v). If a product has no factor c, its key is None.
+The dictionary maps c to (s, k, v). For the product s k v, the key is None.
 """
 
 
@@ -164,7 +164,8 @@ class _Chains:
                 others = [a for a in node.args if a is not arg]
                 late = self.level[arg.id]
                 # For a product, ``linear`` is true only if ``arg`` is the factor that depends on the longer
-                # chain of slow operations (:data:`ATOMS`). A product is expanded only in this factor.
+                # chain of slow operations (:data:`ATOMS`). If this factor is a sum b + c, the product
+                # a (b + c) can be expanded to a b + a c.
                 linear = node.op in ("add", "sub", "neg") or (
                     node.op == "mul" and len(others) == 1 and self.level[others[0].id] < late
                 )
@@ -199,8 +200,8 @@ class _Chains:
             a, b = node.args
             # ``self.level`` contains, for each node, the largest number of slow operations in a chain that
             # ends at the node. The argument with the smaller number becomes ``a``. If ``self.level[a.id]`` is
-            # less than the parameter ``level``, ``a`` is known early. Then ``b`` is expanded, and each term
-            # of the sum is multiplied by ``a``.
+            # less than the parameter ``level``, ``a`` is known early. Then ``b`` is replaced by a sum
+            # of products, and each of these products is multiplied by ``a``.
             if self.level[b.id] < self.level[a.id]:
                 a, b = b, a
             if self.level[a.id] < level:
@@ -209,8 +210,8 @@ class _Chains:
                 return _scaled(
                     self._sum(b, level), 1, *((factor, one) if self.fixed[a.id] else (one, factor))
                 )
-        # ``node`` is not expanded. The result is a sum with a single term: the expression that replaces
-        # ``node``, times the factors 1, 1 and 1 (:data:`Sum`).
+        # ``node`` is not expanded. The result is a single product s k v c (:data:`Sum`): c is the
+        # expression that replaces ``node``, and s = k = v = 1.
         return {self.new[node.id]: (1, one, one)}
 
     def _joined(self, a: tuple[int, Expr, Expr], b: tuple[int, Expr, Expr]) -> tuple[int, Expr, Expr]:

@@ -51,8 +51,8 @@ def part(program: Program, scene: Problem) -> Parted | None:
     """Split the program of a splitting method into programs for the start, the steps and the end of a run.
 
     The result is None if the program is not a composition of flows. The result is also None if no flow can be
-    joined or deferred (:class:`Parted`). If all flows could be deferred, the steps would be empty, and the
-    result is None, too.
+    joined or deferred (:class:`Parted`), or if all flows can be deferred, because no flow
+    would remain in the steps.
     """
     letters = word(program)
     if letters is None:
@@ -61,7 +61,9 @@ def part(program: Program, scene: Problem) -> Parted | None:
     # parts commute. The function applies the two flows to sample points in both possible sequences, and
     # compares the results.
     commute = commuting(scene)
-    # A part is not deferred if one of its flows reads a stage time or has a duration other than h.
+    # If a flow of duration h commutes with all other flows, its n applications in a run of n steps can be
+    # replaced by one flow of duration n h. This is not done for a part in ``bound``, because one of its flows
+    # has a duration other than h or depends on the time.
     bound = {letter.part for letter in letters if letter.time or not _is_h(letter)}
     free = [name for name in apart(letters, commute) if name not in bound]
     kept = [letter for letter in letters if letter.part not in free]
@@ -123,7 +125,10 @@ of both durations.
 def _joined(
     kept: Sequence[Letter], commute: Callable[[str, str], bool], program: Program
 ) -> list[JoinedFlows]:
-    """Return pairs of flows. Each pair is joined into one flow (:data:`JoinedFlows`)."""
+    """Return the flows at the end of a step that can be joined with a flow of the next step.
+
+    Each entry of the result describes both flows (:data:`JoinedFlows`).
+    """
     # The time t + h at the end of a step is the time t of the next step.
     last = _last_time(program)
     begin, end = _run(kept, commute), _run(kept[::-1], commute)
@@ -133,7 +138,8 @@ def _joined(
             # The index ``k`` counts from the end of ``kept``, and ``j`` counts from the beginning.
             j = len(kept) - 1 - k
             timely = not head.time or (head.time[0].name == "t" and tail.time == last)
-            # The condition i < j prevents a flow from being joined with itself.
+            # For i = j, ``head`` and ``tail`` are the same flow. For equal parts, i > j does not occur,
+            # because the first ``begin`` flows belong to different parts.
             if head.part == tail.part and i < j and timely:
                 pairs.append((i, j, tail.duration.value, head.duration.value + tail.duration.value))
     # All joined flows read their duration from the variable LEAD, so only pairs with equal durations are

@@ -23,8 +23,8 @@ from codegen.passes.rewrite import uses
 MANY = 12
 """For at most MANY unknowns, each product a (b + c) in Newton's matrix is expanded to a b + a c.
 
-For more unknowns, all products are expanded except those in which b + c is independent of the unknowns and
-of h, and is already computed outside the loop of the solver.
+For more unknowns, the product is kept if the sum b + c is computed outside the loop of the solver and
+contains neither h nor unknowns. All other products are expanded.
 """
 
 LONGEST_MATRIX = 1500
