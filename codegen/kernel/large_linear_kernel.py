@@ -137,7 +137,7 @@ class _Builder:
         # Without step control, the new state is the only output of the program.
         ((_, end),) = self.program.outputs
         exponents: list[Element] = []
-        # A does not depend on the stage points, so the stage points are not computed.
+        # The matrix A in the equation y' = A(t) y depends only on the time, so no stage points are computed.
         for x in self.chain(end, statements):
             for var in _needed(x, statements):
                 self.run(statements[var])

@@ -317,7 +317,8 @@ class _Execution:
             return y
         assert x.power == 1
         if x.a.is_zero:
-            # If x.a is zero, the series of dexp^{-1}_x y is y - [x, y]/2.
+            # An element x is a pair (x.a, x.b). If x.a is zero, [x, [x, y]] is zero, and therefore
+            # dexp^{-1}_x y = y - [x, y]/2.
             half = Multiplier.of(POWER, Number.rational(1, 2)).scaled(y.a)
             return _Element(y.a, _sum([(_constant(ONE), y.b), (half, x.b)]), y.power)
         beta = Multiplier.of(BERNOULLI, x.a)

@@ -30,7 +30,7 @@ class _Inputs:
         self.symbols: list[Expr] = []
 
     def take(self, words: Sequence[str]) -> Values:
-        """Return the next inputs of the function, one for each name in ``words``."""
+        """Create an input of the function for each name in ``words``, and return these inputs."""
         first = len(self.symbols)
         # ``fixed[first:]`` may be longer than ``words``.
         for word, constant in zip(words, self.fixed[first:], strict=False):

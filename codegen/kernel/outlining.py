@@ -86,9 +86,9 @@ class Outline:
             if not chosen:
                 return None
             rewritten_roots, shapes = self._called(roots, chosen)
-            # The call for a tree reads all inputs of the tree. In the expressions ``roots``, an input x can
-            # be missing, for example because x - x was simplified to 0. Emitted code does not compute missing
-            # inputs, so a tree with a missing input is not replaced by a call.
+            # A call reads all inputs of a tree. If the tree uses an input x only in x - x, and x - x was
+            # simplified to 0, then x can be missing in ``roots``, and emitted code does not compute x.
+            # Therefore a tree with a missing input is not replaced by a call.
             added = _symbols(rewritten_roots) - _symbols(roots)
             if added:
                 called = [tree for alike in chosen.values() for tree in alike]

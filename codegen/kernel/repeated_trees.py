@@ -19,7 +19,7 @@ from codegen.ir.scene_operations import FLOWS
 from codegen.ir.values import Coefficient, Var
 
 NEVER = (Advance, Zero, Identity, *FLOWS)
-"""The operations that are never outlined."""
+"""Assignments with these operations are never moved into a function."""
 
 NODES = 3
 """To estimate the length of emitted code, NODES operations are counted as one line.

@@ -107,7 +107,8 @@ class Planner:
             # it also reads the old values.
             need.loaded |= {u for b in self.blocks if b.last == number for u in b.solve.unknowns}
         count = self._store(needs)
-        # Variables occupy ``count`` rows. The stopping rule of fixed-point iteration needs additional rows.
+        # The first ``count`` rows of the workspace store variables for later sweeps. The stopping rule of
+        # fixed-point iteration needs additional rows.
         measured = MEASURED if self.blocks and not self.newton else 0
         sweeps = tuple(
             self._sweep(k, need, outputs if k == last else (), needs[k + 1 :], count)
@@ -135,9 +136,10 @@ class Planner:
         # begins at row ``matrix``.
         border = count + most
         # An open chain has no border. In a periodic chain, the border contains the columns of Newton's matrix
-        # for the unknowns of the last site. Let n be the number of unknowns of a site. The border has n
+        # for the unknowns of the last site. For a block with n unknowns at each site, the border has n
         # columns, and each column has n entries for each site. A row of the workspace has one entry for each
-        # site, so the border needs n * n rows. The largest n is ``most``.
+        # site, so the border needs n * n rows. All blocks share the rows of the block with the largest n,
+        # which is ``most``.
         matrix = border + (most * most if self.sites.periodic else 0)
         blocks = []
         for own, block, size in zip(step.blocks, self.blocks, sizes, strict=True):

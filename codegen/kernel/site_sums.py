@@ -5,8 +5,8 @@ Inner products and energies are sums over all sites.
 Let eta be the displacement of a step, and let H0 and H1 be the total energies before and after the step. Let
 g be a covector that approximates the differential of the total energy. The discrete differential is
 D = g + (e/|eta|^2) eta, where e = H1 - H0 - <g, eta>. First, the contribution of each site to e is computed.
-Then the contributions are added. The difference of H1, H0 and <g, eta>, each computed as a sum over all
-sites, would have a larger rounding error.
+Then the contributions are added. If H1, H0 and <g, eta> were summed over all sites before the subtraction,
+the rounding error of e would be larger.
 
 For Hamilton's equations, the canonical bivector is applied to D. For all other equations, the bivector
 (gamma wedge f)/|gamma|^2 is applied to D (:mod:`codegen.scene.energy`). Here f is the field, and gamma is the
@@ -63,8 +63,9 @@ def _expanded(assign: Assign, problem: Problem, build: Builder) -> tuple[Assign,
         g, x, before, after = assign.args
         # ``paired`` is the inner product of g and x at one site.
         paired = build.add(InnerProduct(g.kind, x.kind), "paired", g, x)
-        # At each site, ``Excess`` computes ``after - before - paired``, and ``Total`` adds these numbers. The
-        # difference of two total energies would have a larger rounding error.
+        # At each site, ``Excess`` computes ``after - before - paired``, and ``Total`` adds these numbers. If
+        # ``after``, ``before`` and ``paired`` were summed over all sites before the subtraction, the rounding
+        # error would be larger.
         excess = build.add(Total(), "sum", build.add(Excess(), "excess", paired, before, after))
         operation, args = Corrected(), (g, x, excess, total("size", x, x))
     elif isinstance(assign.operation, Bivector) and not canonical(problem):

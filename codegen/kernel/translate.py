@@ -94,9 +94,9 @@ def to_kernel(
 
 
 class _StepDomain(SharedArguments, ShortChains):
-    """The arithmetic of a step. The run time of a step is often the time of its longest chain of operations,
-    so sums have short chains. Loops over many sites use another domain, because a processor executes the
-    chains of different sites at the same time.
+    """The arithmetic of a step. The longest chain of dependent operations often determines the run time of a
+    step, so sums are computed in an order that shortens the chains (:class:`ShortChains`). Loops over many
+    sites use another domain, because a processor executes the chains of different sites at the same time.
     """
 
 
@@ -193,7 +193,7 @@ class _Translation:
 
     def solve(self, statement: Solve) -> None:
         """Add a block of implicit equations to ``blocks``."""
-        # While ``inside`` is true, ``run`` records each assignment as part of this block.
+        # While ``inside`` is true, ``run`` records that an assignment belongs to the new block of equations.
         self.inside = True
         entered = self.enter(statement)
         self.inside = False

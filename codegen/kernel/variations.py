@@ -66,7 +66,7 @@ class Variations:
         seeds: dict[str, Expr] = {}
         for group, symbols in self.parts:
             count = len(symbols) if group is None else group.dim
-            # A variation contains the components of the first part, then of the second part, and so on.
+            # The next ``count`` components of the variation belong to this part of the state.
             own, rest = rest[:count], rest[count:]
             state = tuple(domain.space.sym(s) for s in symbols)
             # For a group element q and a variation xi, ``velocity`` computes the derivative dq = xi.q.
@@ -86,7 +86,8 @@ class Variations:
         for group, symbols in self.parts:
             count = len(symbols)
             g, v, state, rates = state[:count], rates[:count], state[count:], rates[count:]
-            # The method ``rate`` computes xi from v.
+            # For a group element g with the derivative v, ``rate`` computes the element xi of the Lie algebra
+            # with v = xi.g.
             rates_of_end += v if group is None else group.rate(domain, v, g)
         return tuple(rates_of_end)
 

@@ -5,8 +5,9 @@ A recipe consists of a method, one form of the equations, and the choice of equa
 1. For each recipe r and each required error e, the CPU time T(r, e) is predicted from a few runs in the
    interpreter.
 2. T(r, e)/SAFE is used as a lower bound of the true CPU time, where SAFE is a safety factor.
-3. The time limit L(e) is WORST times the CPU time of the best recipe of ``orderconds recommend`` for the
-   error e. The recipe r is excluded if T(r, e)/SAFE > L(e) for all required errors e.
+3. Let K(e) be the CPU time of the best recipe of ``orderconds recommend`` for the error e. The time limit is
+   L(e) = WORST K(e), where WORST is a factor slightly above 1. The recipe r is excluded if
+   T(r, e)/SAFE > L(e) for all required errors e.
 4. The remaining recipes are emitted, compiled and timed.
 5. A sample of the excluded recipes is also timed, to test the lower bounds.
 """
@@ -55,8 +56,9 @@ class Exhausted:
     - ``excluded``: the number of recipes that were not timed, because their predicted CPU times were too
       long.
     - ``nearest``: the result of a test. A sample of the excluded recipes is timed for each required error,
-      and each time is divided by the least CPU time that was measured earlier for the same error.
-      ``nearest`` is the least of these quotients. If ``nearest`` is below 1, a faster recipe was excluded.
+      and each time is divided by the least CPU time that ``orderconds recommend`` or this search had measured
+      before for the same error. ``nearest`` is the least of these quotients. If ``nearest`` is below 1, a
+      faster recipe was excluded.
     - ``complete``: False if the time limit ended the search.
     """
 
@@ -88,9 +90,8 @@ class Exhausted:
         )
         if math.isfinite(self.nearest):
             counts += (
-                "; to test the predictions, a few recipes with long predicted times were measured, too; each "
-                f"of these recipes took at least {self.nearest:.1f} times as long as the fastest recipe that "
-                "was measured before it"
+                "; to test the predictions, a few recipes with long predicted times were measured last; each "
+                f"took at least {self.nearest:.1f} times as long as the fastest of the earlier recipes"
             )
         return counts if self.complete else f"{counts}; the time limit ended the search"
 

@@ -50,7 +50,8 @@ PATIENT = 8.0
 """A factor in the time limit of :meth:`Racer.reach`.
 
 If a run takes more than PATIENT * ``best`` + BRIEF seconds of CPU time, no run with higher accuracy is made.
-Here ``best`` is the argument of :meth:`Racer.reach`, and times below :data:`BRIEF` seconds are not reliable.
+Here ``best`` is the argument of :meth:`Racer.reach`. The term :data:`BRIEF` is added because times below
+BRIEF seconds are not reliable.
 """
 
 

@@ -302,7 +302,7 @@ class Search:
         return [result for result in fastest.values() if goal.met(result.entry.features)]
 
     def racer(self, candidate: Entry) -> Racer:
-        """Return the object that runs an emitted recipe."""
+        """Return a :class:`Racer`, which runs the emitted code of ``candidate``."""
         return Racer(self.task.equations(candidate.recipe.form), self.exact, candidate)
 
     def _measure(self, recipe: Recipe) -> None:

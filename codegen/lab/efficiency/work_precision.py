@@ -201,7 +201,7 @@ class Refused:
 
 
 def doubled_steps() -> Iterator[float]:
-    """Yield the numbers of steps 1, 2, 4, ..., at most MOST_STEPS."""
+    """Yield the number of steps of each run: 1, 2, 4, and so on, at most MOST_STEPS."""
     n = 1
     while n <= MOST_STEPS:
         yield float(n)

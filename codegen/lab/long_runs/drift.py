@@ -270,7 +270,7 @@ def saturation(peaks: Sequence[float] | numpy.ndarray, lows: Sequence[float] | n
 def _fitted(t: numpy.ndarray, y: numpy.ndarray, size: numpy.ndarray) -> Drift:
     """Return the drift for finite deviations ``y`` at the times ``t``.
 
-    ``size`` contains the largest absolute deviation since the previous sample, for each sample.
+    For each of these times, ``size`` contains the largest absolute deviation since the previous time.
     """
     whole, scale = float(t[-1]), float(size.max()) or 1.0
     # The scaling prevents an overflow in the squares of times and deviations.

@@ -170,9 +170,9 @@ def _kept(
 
     ``changes`` maps the name of a quantity to its largest change c in one step. The step is computed with
     many digits, so c is caused by the method and not by rounding errors. Let e be EPSILON times the size of
-    the quantity, which is about one rounding error in double precision. If c > e/10, c is not negligible
-    beside e, so all deviations are attributed to the method. If c <= e/10, small deviations are attributed to
-    rounding errors. ``early(n)`` returns a trajectory of the first n steps with dense samples.
+    the quantity. The number e is about one rounding error in double precision. If c > e/10, c is not
+    negligible beside e, so all deviations are attributed to the method. If c <= e/10, small deviations are
+    attributed to rounding errors. ``early(n)`` returns a trajectory of the first n steps with dense samples.
     """
     elapsed = [t - trajectory.times[0] for t in trajectory.times[1:]]
     if len(elapsed) < FEWEST:

@@ -21,8 +21,8 @@ from orderconds.tableau.uncertainty import uncertainty
 SYMPLECTIC = 1e-24
 """A step counts as symplectic if its symplectic defect is below this number.
 
-The defect of symplectic steps is at most the error of the finite differences, about 1e-50, or about 1e-26 if
-components of the state differ by a factor of 1e12
+The defect of symplectic steps is at most the error of the finite differences. This error is usually about
+1e-50. If components of the state differ by a factor of 1e12, this error is about 1e-26
 (:data:`~codegen.lab.long_runs.symplecticity.OFFSET`). The defect of other steps is proportional to a
 power of the step size. For small steps, this defect can be far below the precision of doubles, so the limit
 must be far below this precision, too.
@@ -36,7 +36,9 @@ of the coefficients, about 1e-16 for doubles, causes a defect also in symplectic
 """
 
 ACCURATE = 100
-"""The number of bits, about 30 digits, to which coefficients must be known for :data:`SYMPLECTIC`."""
+"""The limit for the symplectic defect is :data:`SYMPLECTIC` if the coefficients of the method are known to at
+least ACCURATE bits, and otherwise :data:`ROUNDED`. 100 bits are about 30 decimal digits.
+"""
 
 SYMMETRIC = 1e-30
 """A step counts as symmetric if the distance computed by :func:`reversal` is below this number."""

@@ -56,7 +56,7 @@ LEFT = 0.5
 
 
 def largest_defect(compiled: Compiled, runner: Emitted, trajectory: Trajectory, h: float) -> float:
-    """Return the largest symplectic defect of at most three steps of size ``h``.
+    """Compute the symplectic defect of each of up to three steps of size ``h``, and return the largest.
 
     The trajectory is used only up to the first large deviation of a conserved quantity (:data:`LEFT`). In
     this part, the steps start at the first sample, the middle sample, and the sample with the fastest motion.
@@ -155,7 +155,11 @@ class _Scales:
 
     @property
     def all(self) -> tuple[Scalar, ...]:
-        """The units of the coordinates of a tangent vector: in the Lie algebra, then in its dual space."""
+        """The scales of all coordinates of a tangent vector (xi, nu).
+
+        Here xi is an element of the Lie algebra, and nu is an element of the dual space. The scales of the
+        coordinates of xi come first.
+        """
         return (*self.positions, *(self.action / x for x in self.positions))
 
 
