@@ -44,8 +44,8 @@ class Method:
     - ``cutoff`` is the number of brackets after which the series of dexp^{-1} or dexp is truncated. For a
       family without tableau, ``cutoff`` is the number in the label, for example 12 in ``taylor(12)``.
     - ``adaptive`` is True if the emitted code controls the step size.
-    - If the scene defines the method as a map y1 = M y0, ``step`` is the name of this map. Otherwise, it is
-      ''.
+    - ``step`` is '' for most methods. A scene can also contain methods of its own, defined by a formula
+      y1 = M y0 with a matrix M. For such a method, ``step`` is the name that the scene gives to the method.
     """
 
     family: str

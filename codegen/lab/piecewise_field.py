@@ -30,8 +30,9 @@ from codegen.scene.problem import TIME, Problem
 AHEAD = 1e-34
 """A short time, used for operations with several cases, such as abs(x) with the cases x > 0 and x <= 0.
 
-The sign of x at the time t + AHEAD decides which case of abs(x) applies just after the time t. AHEAD is much
-larger than the rounding error of t, and much smaller than the time scales of the solution.
+The sign of x at the time t + AHEAD decides which case of abs(x) applies just after the time t. The time t has
+about 60 decimal digits, so AHEAD is much larger than the rounding error of t. AHEAD is also much smaller than
+the time scales of the solution.
 """
 
 NEAR = (1e-5, 1e-6)
@@ -107,10 +108,11 @@ class PiecewiseField:
         return first, second
 
     def sides_at(self, y: Vector, t: Scalar, flow: Evaluate | None = None) -> Sides:
-        """Return the case that applies just after the time t, for each operation with several cases.
+        """Return the cases of operations such as abs(x), for example x > 0, just after the time t.
 
-        The state just after t is computed by a short Euler step from y with the derivative ``flow(y, t)``. By
-        default, ``flow`` is the field of the scene.
+        The result contains one case for each operation with several cases. The state just after t is computed
+        by a short Euler step from y with the derivative ``flow(y, t)``. By default, ``flow`` is the field of
+        the scene.
         """
         whole = straight_line(self.scene.name, self.scene.symbols, self.roots).python(ball, FUNCTIONS)
         ahead = arb(AHEAD)
@@ -123,11 +125,12 @@ class PiecewiseField:
         )
 
     def beyond(self, sides: Sides, y: Vector, t: Scalar) -> tuple[Sides, int]:
-        """Return the cases that apply after an event at (y, t), and the smoothness of the field at (y, t).
+        """Return the new ``sides`` after an event at (y, t), and the smoothness of the field at (y, t).
 
-        An operation such as abs(x) has several cases. ``sides`` contains, for each such operation, the case
-        that applies before the event. The smoothness is the number of continuous derivatives of the field, or
-        -1 if the field is discontinuous. The largest returned smoothness is :data:`MOST`.
+        At an event, an operation such as abs(x) changes its case, for example from x > 0 to x <= 0. The
+        argument ``sides`` contains the case of each such operation before the event. The smoothness is the
+        number of continuous derivatives of the field, or -1 if the field is discontinuous. The largest
+        returned smoothness is :data:`MOST`.
         Raises :class:`SceneError` if the solution slides along a discontinuity of the field.
         """
         before, _ = self.on(sides)
@@ -226,11 +229,11 @@ class Sided:
     def _cross(
         self, y: Vector, t: Scalar, bracket: tuple[Scalar, Scalar], advance: Advance
     ) -> tuple[Scalar, Vector]:
-        """Find the event in the part ``bracket`` of a step from (y, t), and set ``sides`` to the cases that
-        apply after the event.
+        """Return the time and the state of the event in a step from (y, t).
 
-        At an event, a margin is zero (:meth:`margins`). ``bracket`` is the result of
-        :meth:`StepPolynomial.first_exit`. The result is the time and the state of the event.
+        At an event, an operation such as abs(x) changes its case, and a margin is zero (:meth:`margins`). The
+        event is between the times t + a and t + b, where (a, b) = ``bracket`` is the result of
+        :meth:`StepPolynomial.first_exit`. ``self.sides`` is set to the cases that apply after the event.
         """
         low, high = bracket
         start, end = (self.margins(advance(self, y, t, tau)[0], t + tau) for tau in bracket)

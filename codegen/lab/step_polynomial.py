@@ -128,9 +128,11 @@ class StepPolynomial:
         return tuple(p(tau) for p in self.polynomials)
 
     def first_exit(self, values: Evaluate, series: Evaluate, length: Scalar) -> tuple[Scalar, Scalar] | None:
-        """Find the first time at which a function becomes negative along the solution.
+        """Find the first time at which one of several functions becomes negative along the solution.
 
-        - ``values`` and ``series`` compute the functions of (state, t) for balls and for power series.
+        - ``values`` computes the functions from a state and a time. All numbers are Arb balls, which are
+          numbers with error bounds.
+        - ``series`` computes the same functions if the state and the time are power series.
         - ``length`` is the length of the step.
 
         Return None if all functions are non-negative from t to t + ``length``. Otherwise, return two numbers
@@ -201,8 +203,8 @@ class _Signs:
             if ends[k] < -self.limits[k]:
                 if self.sizes[k] < NEGLIGIBLE:
                     raise Undecided(
-                        "x in an operation such as abs(x) is too close to a value at which the operation "
-                        "changes its formula (0 for abs(x))"
+                        "the solution is too close to a point at which an operation changes its formula "
+                        "(x = 0 for abs(x))"
                     )
                 negative = True
         return negative
@@ -211,7 +213,8 @@ class _Signs:
         try:
             values = self.values(state, t)
         except (ArithmeticError, ValueError):
-            # The box can contain points at which a function is not defined.
+            # The balls in ``state`` can contain points at which a function is undefined. No sign is then
+            # known, so all functions count as possibly negative.
             return list(range(self.count))
         return [k for k, x in enumerate(values) if not x >= -self.limits[k]]
 

@@ -169,7 +169,10 @@ class Subject:
 
     @property
     def labels(self) -> tuple[str, ...]:
-        """The names of the methods, the methods with step-size control, and the peers (other integrators)."""
+        """The names of all methods, and then the names of the peers (other integrators).
+
+        The methods with step-size control come after the other methods.
+        """
         controlled = (ADAPTIVE + m.label for m in self.adaptive)
         return (*(m.label for m in self.methods), *controlled, *(peer.name for peer in find(self.peers)))
 

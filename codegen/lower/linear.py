@@ -40,7 +40,10 @@ class LinearLowering(FieldLowering):
     """
 
     def objection(self, scene: Problem) -> Objection | None:
-        """Return an objection if A depends on coordinates that change in time, otherwise None."""
+        """Return an objection if the matrix A of y' = A.y depends on coordinates that change in time.
+
+        Otherwise return None.
+        """
         if scene.linear or scene.carries_momentum or reads_only_static(scene):
             return None
         if scene.sites is not None:
@@ -142,7 +145,7 @@ class LinearLowering(FieldLowering):
     def symplectic(self, scene: Problem, method: Method) -> bool:
         """Return True if the group is abelian.
 
-        On an abelian group, a step is the exact flow of a weighted sum of the Hamiltonians at the nodes.
+        On an abelian group, a step is the exact flow of a Hamiltonian, so the step is symplectic.
         """
         return bool(scene.group.abelian)
 

@@ -103,7 +103,8 @@ class PartitionedLowering(Lowering):
                 # If the velocity does not depend on positions, its values at ``q`` and ``Q`` are equal, so
                 # ``q`` can replace ``Q``.
                 if not by_position:
-                    # ``Q`` can depend on unknown velocities. Therefore the velocity is computed from ``q``.
+                    # The position ``q`` at the beginning of the step is known, but the position ``Q`` of the
+                    # stage can depend on unknown velocities.
                     v, _ = build.hamilton(f"v{number}", "unused", q, P, *time)
                 # If the force does not depend on momenta, its values at ``mu`` and ``P`` are equal, so ``mu``
                 # can replace ``P``.

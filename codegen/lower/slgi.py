@@ -74,7 +74,7 @@ def _program(scene: Problem, method: Method) -> Program:
     def one() -> list[Var]:
         """For a method with one stage, append the momentum M to the program, and return [M]."""
         # Let mu be the momentum at the beginning of the step, xi the velocity of the stage, and n its force.
-        # With r = b_1 - a_11, y = -h b_1 xi and z = -h r xi, M is dexp*_y mu + h r dexp*_z n.
+        # With r = b_1 - a_11, y = -h b_1 xi, z = -h r xi, the stage momentum is dexp*_y mu + h r dexp*_z n.
         rest = b[0] - A[0][0]
         minus = build.lin("y", Kind.ALG, [(stages.times_h(-b[0]), xi[0])])
         after = build.lin("z", Kind.ALG, [(stages.times_h(-rest), xi[0])])

@@ -62,7 +62,7 @@ def _program(scene: Problem, method: Method) -> Program:
         minus = stages.builder.lin(f"y{i + 1}", Kind.ALG, [(stages.times_h(-b[i]), xi[i])])
 
         def carried(m: Var) -> Var:
-            # The index i begins with 0, so e[i] is the product of the first i exponentials exp(h b_j xi_j).
+            # The first stage has i = 0 and e[0] = 1. Each earlier stage contributes one exponential to e[i].
             moved = build.adjoint(f"m{i + 1}", e[i], m, inverse=True)
             return build.dual_dexp(f"p{i + 1}", minus, moved)
 

@@ -110,9 +110,9 @@ class _Bounded(PreciseDomain):
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
         """Return (converged, size of the change) for one fixed-point iteration from ``old`` to ``new``.
 
-        ``previous`` is the size of the change in the previous iteration. NotConverged is raised if the change
-        from ``old`` to ``new`` is at least 10^``digits``, because an iteration with so large a change
-        diverges.
+        ``previous`` is the size of the change in the previous iteration. Numbers have d = ``self.digits``
+        decimal digits, for example d = 60. NotConverged is raised if the change from ``old`` to ``new`` is at
+        least 10^d. Changes become so large only if the iteration diverges.
         """
         done, change = super().settled(old, new, previous)
         if not change < self.rational(10) ** self.digits:
@@ -189,7 +189,8 @@ class Reference:
         self, program: Program, domain: Domain, inputs: dict[str, Value], moved: bool, *, tiny: bool = False
     ) -> _Step | None:
         """Return the result of one step of a program, or None if the step cannot be computed."""
-        # The iterations of the rewritten program start from these solutions of the implicit equations.
+        # ``_run`` stores the solutions of the implicit equations here. The iterations of the rewritten
+        # program start from the stored solutions.
         solutions: dict[Var, Value] = {}
         # If the iteration does not converge, or numbers overflow, the step is too long.
         try:
@@ -241,8 +242,8 @@ class Reference:
         steps of different lengths from one state, and ``point`` contains the results. The lengths are tried
         in decreasing order. The comparison uses the first length for which ``program`` does not fail.
         ``program`` fails if a result is NaN, or if an exception is raised. For example, an exception is
-        raised if an iteration does not converge. If ``program`` fails for all lengths, the result describes a
-        failure. If the reference program can compute none of the steps, the result is None.
+        raised if an iteration does not converge. If ``program`` fails for all lengths, return a description
+        of a failure, or None if the reference program fails for all lengths, too.
         """
         failure = None
         for step in point.results():

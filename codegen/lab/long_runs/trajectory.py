@@ -57,9 +57,11 @@ class Series:
     lows: list[float] = field(default_factory=list)
 
     def append(self, values: numpy.ndarray) -> None:
-        """Append one interval to ``deviations``, ``peaks`` and ``lows``.
+        """Append one number to each of the lists ``deviations``, ``peaks`` and ``lows``.
 
-        ``values`` contains the deviation after each step of the interval.
+        ``values`` contains the deviation after each step of an interval. The mean of ``values`` is appended
+        to ``deviations``, the largest absolute value to ``peaks``, and the smallest absolute value to
+        ``lows``. If the deviation changes sign, zero is appended to ``lows`` instead.
         """
         absolute = numpy.abs(values)
         crosses = values.min() < 0.0 < values.max()

@@ -19,8 +19,8 @@ from codegen.lab.stability.stability_study import Findings, Stability, StiffScen
 from codegen.lab.subject import CompiledMethod, MethodResults, Subject
 
 OVERVIEW = (
-    '<p class="note">{{ wrong }} of {{ all }} steps with extreme input reported success with a wrong result.'
-    "</p>"
+    '<p class="note">Of {{ all }} steps with extreme input, {{ wrong }} had a wrong result that was reported '
+    "as success.</p>"
 )
 
 NAMED = 2
@@ -84,8 +84,8 @@ class StabilityTests(Measurement[Result]):
         if answers:
             names = f" ({enumeration(list(dict.fromkeys(wrong)))})" if wrong else ""
             parts.append(
-                f"{len(wrong) or 'none'} of {len(answers)} steps with extreme input reported success "
-                f"with a wrong result{names}"
+                f"of {len(answers)} steps with extreme input, {len(wrong) or 'none'} had a wrong result "
+                f"that was reported as success{names}"
             )
         if undetermined := sum(kind == "undetermined" for kind, _ in answers):
             parts.append(f"{undetermined} had an undetermined result")

@@ -39,11 +39,11 @@ FEWEST = 4
 
 
 SPREAD = CLEAR * 2.0**-52
-"""Errors of the coefficients up to SPREAD are negligible.
+"""Errors of the coefficients of a method up to SPREAD are negligible.
 
-Let r be the rounding error of a run with doubles. A run is used to measure the order only if its error is
-larger than CLEAR r. Coefficient errors up to SPREAD change the final state of the run by less than about
-CLEAR r.
+A run with doubles has a rounding error r of about 2^-52 or more. The run is used to measure the order only if
+its error is larger than CLEAR r. Coefficient errors up to SPREAD change the final state of the run by about
+SPREAD = CLEAR 2^-52 or less, so by at most about CLEAR r.
 """
 
 
@@ -174,8 +174,7 @@ class Convergence:
         if not self.refinement.settled:
             return text
         return (
-            f"{text}; the usual steps are too long, because there "
-            "the leading term is not the largest term of the error"
+            f"{text}; the usual steps are so long that the leading term is not the largest term of the error"
         )
 
     def _unsettled(self) -> str:

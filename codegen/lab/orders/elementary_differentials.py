@@ -2,9 +2,11 @@
 
 An element x of the Lie algebra acts on a point y, and x.y is the resulting tangent vector. The vector field
 that maps y to x.y is called a frozen field. The derivative of a function g along a frozen field is the
-coefficient of eps in g(y + eps x.y), where eps^2 = 0. For the derivative along k frozen fields, given by the
-elements x_1, ..., x_k, let y_0 = y and y_j = y_{j-1} + eps_j x_j.y_{j-1} for j = 1, ..., k. The derivative is
-the coefficient of the product eps_1 ... eps_k in g(y_k). The scene must be polynomial in its coordinates.
+coefficient of eps in g(y + eps x.y), where eps^2 = 0.
+
+The elements x_1, ..., x_k define k frozen fields. Let y_0 = y and y_j = y_{j-1} + eps_j x_j.y_{j-1}, where
+eps_j^2 = 0. The derivative of g along the k frozen fields is the coefficient of the product eps_1 ... eps_k
+in g(y_k). The scene must be polynomial in its coordinates.
 """
 
 from __future__ import annotations
@@ -61,7 +63,8 @@ class RingDomain(Domain):
     def vector(self, function: str, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
         """Raise ArithmeticError, because the scene must be polynomial in its coordinates.
 
-        ``vector`` is executed for each function with several results in the formulas of the scene.
+        ``vector`` is executed if a formula of the scene contains a function that returns several numbers, for
+        example the entries of a matrix exponential.
         """
         raise ArithmeticError(f"{function} is not polynomial")
 

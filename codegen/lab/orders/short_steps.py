@@ -46,16 +46,16 @@ SWEEPS = 400
 def order_of_short_steps(compiled: Optimised, stated: int, negligible: float = 0.0) -> float | None:
     """Return the order of a method, measured with very short steps from the initial state of the scene.
 
-    ``stated`` is the expected order. Coefficient errors up to ``negligible`` must not determine the result.
-    For each step size h, the state after one step of size h is compared with the state after two steps of
+    ``stated`` is the expected order. If rounding errors up to ``negligible`` in the coefficients of the
+    method can explain a low order, the result is None (the last case below). Let y0 be the initial state. For
+    each step size h, the state y1 after one step of size h is compared with the state y2 after two steps of
     size h/2. The result is None in four cases:
 
     - A step cannot be computed.
-    - For some step size h, the two states are equal.
+    - For some step size h, y1 = y2.
     - Different pairs of step sizes give orders that differ by more than :data:`AGREEMENT`.
-    - The order is below ``stated``, and for some step size h, the difference between the two states is at
-      most ``negligible`` times the change of the state in the step of size h. Coefficient errors up to
-      ``negligible`` can cause such a difference.
+    - The order is below ``stated``, but rounding errors of the coefficients can be the reason, because
+      |y2 - y1| <= ``negligible`` |y1 - y0| in the maximum norm for some step size h.
     """
     problem = problem_for(compiled.scene, compiled.method)
     first, last = problem.span

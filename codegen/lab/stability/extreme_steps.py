@@ -49,11 +49,11 @@ TINY = 2.0**-1022
 """The smallest normal double. A result whose absolute value is less than TINY counts as zero."""
 
 ROUNDINGS = 256.0
-"""The factor in a bound for the error of a step that emitted code makes.
+"""A factor in the largest permitted error of a step.
 
-The step is repeated with simulated rounding errors. Let d be the largest error of a coordinate in all
-repetitions, and let e be about one rounding error of a coordinate. The result of the emitted code counts as
-wrong if its error exceeds ROUNDINGS * (d + e).
+Emitted code makes the step. The step is repeated with simulated rounding errors. Let d be the largest error
+of a coordinate in all repetitions, and let e be about one rounding error of a coordinate. The result of the
+emitted code counts as wrong if its error exceeds ROUNDINGS * (d + e).
 """
 
 LEAST = 3
