@@ -87,7 +87,7 @@ def _together(body: tuple[Assign, ...], builder: Builder) -> tuple[Assign, ...]:
     for v in dict.fromkeys(v for a in sums.values() for v in a.args):
         places = [(k, c) for k, a in sums.items() for c, x in a.terms if x == v]
         # Each coefficient of v is divided by the first coefficient of v. For example, the coefficients 3, 6
-        # become 1, 2, as for another value with the coefficients 1, 2 in the same two sums.
+        # become 1, 2.
         unit = places[0][1]
         relative = tuple((k, Coefficient(c.value / unit.value, c.power - unit.power)) for k, c in places)
         # ``distinct`` is False if a sum contains v twice, with different powers of h.

@@ -96,8 +96,8 @@ def residuals(program: Program, scene: Problem) -> Program:
     for statement in program.body:
         if isinstance(statement, Solve):
             paths = [path(statement, u) for u in statement.unknowns]
-            # The residual for an unknown is computed from the path of the unknown. Newton's method needs a
-            # residual for every unknown, so every unknown must have a path.
+            # If ``path`` returns None for an unknown, the unknown has no residual. Newton's method needs a
+            # residual for every unknown, so a block with such an unknown is not changed.
             if all(p is not None for p in paths):
                 compared = [_residual(statement, p, build) for p in paths if p is not None]
                 statement = replace(
@@ -160,9 +160,9 @@ def _values(build: Builder, route: Path) -> tuple[dict[Var, Var], Var]:
     The maps of ``route`` compute ``route.unknown`` from ``route.base``. The new assignments apply the
     inverses of these maps, in reverse order.
 
-    The first result maps each variable of ``route`` to its copy: a variable that the new assignments compute
-    from ``route.unknown``. If the unknown satisfies its equation, each variable is equal to its copy. The
-    second result is the copy of ``route.base``.
+    The first result maps each variable v of ``route`` to a variable v* that is computed from
+    ``route.unknown``. If the unknown satisfies its equation, v* is equal to v. The second result is v* for
+    v = ``route.base``.
     """
     replaced: dict[Var, Var] = {}
     value = route.unknown
@@ -188,8 +188,8 @@ def _residual(block: Solve, route: Path, build: Builder) -> Var:
     replaced, computed = _values(build, route)
     given = route.base
     if _function_of_one(block, route):
-        # In this case, the residual is a difference of two values of the momentum P of the stage. A
-        # difference of two values of ``route.base`` would need the inverse of a map in ``route.inward``.
+        # In this case, m and n are values of the momentum P of the stage, and not of ``route.base``. The map
+        # in ``route.inward`` computes P from ``route.base``, so the inverse of this map is not needed for n.
         given = route.velocity.args[1]
     elif route.inward and route.inward[0].terms:
         given = route.inward[0].targets[0]

@@ -30,7 +30,7 @@ class Rendering:
 
     @property
     def text(self) -> str:
-        """The expression on one line. If ``negative`` is True, the minus sign is omitted."""
+        """The text without the sign, on one line."""
         return " ".join(self.segments)
 
 

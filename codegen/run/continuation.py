@@ -49,8 +49,8 @@ LARGEST_FACTOR = 4.0
 def retried(plan: Plan, state: Term, arguments: tuple[Term, ...]) -> list[Statement]:
     """Return the statements that call the function CONTINUED after a failed step.
 
-    CONTINUED tries steps with given initial guesses. Only steps with a warm start can read given guesses, so
-    the list is empty for other steps.
+    CONTINUED repeats the step with other initial guesses, and passes them in the memory of the warm start.
+    Therefore the list is empty for steps without a warm start.
     """
     # Steps without a warm start store no solutions.
     if plan.start is None:

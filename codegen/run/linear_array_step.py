@@ -193,7 +193,7 @@ class _Step:
         The pair (X, Y) is ``step.commutators[number_of]``.
         """
         left, right = self.step.commutators[number_of]
-        # This ``Element`` contains only the commutator, with the coefficient 1.
+        # The method ``letters`` needs an ``Element``: here 1 times the commutator number ``number_of``.
         own_letters = self.letters(Element(None, ((Number.rational(1), number_of),)))
         x, y, first, second = (self.stored.vector(name) for name in ("x", "result", "first", "second"))
         body: tuple[Statement, ...] = (

@@ -218,7 +218,7 @@ class _Exponential:
 
     def _about(self) -> str:
         # ``what`` is a text about the result. If there are derivatives, the text also describes the contents
-        # of the two arrays.
+        # of the arrays 'a' and 'result'.
         what = f"exp(A) for the {self.n} x {self.n} matrix A in array 'a'"
         if self.level:
             single = (

@@ -25,8 +25,8 @@ def numbers_held(unit: Unit) -> int:
         # A public function may call another public function, for example ``step`` calls ``run``.
         return held[name] + max(map(together, sorted(calls[name] & public)), default=0)
 
-    # A program calls only one function of ``public`` at a time. A compiler may inline all other functions
-    # into the called function, so the scalars of all other functions are added to its scalars.
+    # A program calls only one function of ``public`` at a time. A compiler may inline the functions that are
+    # not in ``public`` into the called function, so the scalars of all these functions are added.
     return sum(held.values()) - sum(held[name] for name in public) + max(map(together, public))
 
 

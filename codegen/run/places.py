@@ -32,8 +32,8 @@ class Place:
 def places(kernel: Kernel) -> tuple[Place, ...]:
     """Return the position of each block of a kernel's state.
 
-    If the state has a variation (a tangent vector), the variation is the last block. The name of the array is
-    ``vector`` for the variation, and ``state`` for all other blocks.
+    If the state has a variation (a tangent vector), the variation is the last block. The emitted code stores
+    the variation in the array ``vector``, and all other blocks in the array ``state``.
     """
     # ``whole`` is the length of the emitted array ``state``. The variation in ``kernel.state`` is not
     # counted, because the emitted code stores the variation in another array.

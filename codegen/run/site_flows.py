@@ -197,8 +197,8 @@ class _Part:
             # Adjacent indices allow compilers to load both sites of a pair with one instruction.
             body.append(Assign(_NEAR, PLACE + 1 if self.strided else _START + INDEX))
         body += self._moved(inside, ends)
-        # The last flow of a step changes single sites. The last flow checks every site for infinities and
-        # NaNs, so a flow of pairs needs no check.
+        # The last flow of a step is never a flow of pairs, and checks every site for infinities and NaNs.
+        # Therefore a flow of pairs needs no check.
         if not self.paired:
             body += checked(self._news)
         # No site occurs in two iterations, so compilers may use vector instructions.
@@ -331,7 +331,10 @@ class _Part:
         return self._function(f"part_{self.index}", about, parameters, [*first, *body])
 
     def _rows(self, outer: list[Term], shape: Term) -> list[Statement]:
-        """Return the statements that apply the flow to all pairs of sites in two adjacent rows."""
+        """Return the statements that apply the flow to the pairs of sites in two adjacent rows.
+
+        Pair number k consists of site k of the first row and site k of the second row.
+        """
         axis, length = self.own.axis, shape[self.own.axis]
         index = outer[axis]
         there = count("there")

@@ -6,8 +6,9 @@ once. The rows for site i contain three blocks of the matrix: A_i, B_i and C_i. 
 unknowns of the left neighbour, of site i, and of the right neighbour.
 
 Block elimination (the Thomas algorithm) visits the sites from left to right. The pivot block of site i is
-D_i = B_i - A_i D_{i-1}^{-1} C_{i-1}. D_i^{-1} A_i overwrites A_i, D_i^{-1} overwrites B_i, and D_i^{-1} C_i
-overwrites C_i. Rows are exchanged only within a pivot block.
+D_i = B_i - A_i D_{i-1}^{-1} C_{i-1}, where A_i, B_i and C_{i-1} are the original blocks. In memory,
+D_i^{-1} A_i then overwrites A_i, D_i^{-1} overwrites B_i, and D_i^{-1} C_i overwrites C_i. Rows are exchanged
+only within a pivot block.
 
 For a periodic chain, let x be Newton's correction at the last site, and let y be the correction at all other
 sites. The linear equations are T y + E x = r and F y + G x = s. The matrix T is block-tridiagonal, and the
@@ -261,8 +262,8 @@ class ChainSolver:
 
         The border contains the coefficients of the last site's unknowns in the equations of all other sites.
         """
-        # The unknowns of the last site occur only in the equations of its two neighbours: site 0 and the last
-        # but one. All other entries of the border are zero.
+        # The unknowns of the last site occur only in the equations of site 0 and of site ``_LAST`` (the last
+        # but one). Therefore the coefficients of these unknowns are zero in the equations of all other sites.
         n, ends = self.n, []
         for site, block in ((whole(0), LEFT), (_LAST, RIGHT)):
             there = self.border(site, _I, _J)
@@ -284,7 +285,8 @@ class ChainSolver:
         n = self.n
         first = row_of(self.step, _J * n + self.newton.border)
         solved = For(_J, whole(n), (Call(self.name("substitute"), (_INNER, SITES, self.work, first)),))
-        # The chain is periodic, so site 0 follows site ``_INNER``.
+        # The neighbours of the last site ``_INNER`` are site 0, because the chain is periodic, and site
+        # ``_LAST`` (the last but one).
         right = self.cell(_INNER, RIGHT, _I, _K) * self.border(whole(0), _K, _J)
         left = self.cell(_INNER, LEFT, _I, _K) * self.border(_LAST, _K, _J)
         pivot = (

@@ -420,9 +420,9 @@ def _advance(plan: Plan, step: SiteStep, loops: Sequence[Loop]) -> Function:
         arguments = (WHOLE, shape_of(step), SITES, *loop.arrays, *loop.scalars)
         calls.append(Call(loop.name("pass"), arguments, (BAD,) if loop.last else ()))
         calls += summed(step, step.sweeps[k])
-        # The solver repeats all sweeps (loops over all sites) of a block of equations together. Therefore
-        # ``calls`` collects the calls of all sweeps of the block. After the last sweep of the block,
-        # ``iterated`` returns an iteration that contains the collected calls.
+        # A block of equations may need several loops over all sites. Each iteration of the solver executes
+        # all loops of the block. Therefore ``calls`` collects the calls for all loops of the block. After the
+        # last loop of the block, ``iterated`` returns an iteration that contains the collected calls.
         if any(block.first <= k < block.last for block in step.blocks):
             continue
         body += iterated(plan, step, *ends[k], calls) if k in ends else calls

@@ -111,8 +111,8 @@ def of_step(kernel: Kernel, work: Work) -> Amounts:
 
 def of_sweep(loop: Loop, work: Work) -> Amounts:
     """Return the amounts of work in one sweep."""
-    # A sweep counts as a correction only in Newton's method for equations u = g(u). If ``residuals`` is true,
-    # the equations are r(u) = 0.
+    # In Newton's method for equations u = g(u), each sweep multiplies an inverse matrix by g(u) - u: the
+    # correction. For equations r(u) = 0 (``residuals`` is true), no correction is counted.
     corrected = loop.newton is not None and not loop.newton.residuals
     return of_operations(work[loop.label]) + Amounts(swept=len(loop.unknowns), corrections=int(corrected))
 

@@ -218,8 +218,8 @@ class Stopping:
                 (Assign(first, first + CHANGE),),
             ),
             # Let q be the rate, and let d be ``change``. If q is constant, the sum of all later changes is
-            # q d/(1 - q). For q < 1/2, the first test below neglects the divisor 1 - q, because the divisor
-            # is between 1/2 and 1.
+            # q d/(1 - q). For q < 1/2, the first test below omits the divisor 1 - q, because the sum is then
+            # between q d and 2 q d.
             Assign(flag("contracts"), rate < 0.5),
             Assign(
                 flag("converged"),

@@ -272,8 +272,8 @@ def select(test: Term, yes: Operand, no: Operand) -> Term:
 
     An array language computes both values and selects one (:mod:`codegen.run.language`).
     """
-    # If one value is a Python number, its kind (integer or real) is determined by the other value ``like``.
-    # Two Python numbers become reals.
+    # If only one of ``yes`` and ``no`` is a Python number, the other value determines whether the number
+    # becomes an integer or a real. Two Python numbers become reals.
     like = yes if isinstance(yes, Term) else no if isinstance(no, Term) else number(0.0)
     first, second = _term(yes, like), _term(no, like)
     return Term("select", (test, first, second), first.kind)

@@ -232,8 +232,8 @@ def run(plan: Plan) -> Function:
         now = moving if carried else state
         row = rows.add(state)
         if carried:
-            # ``rows.add`` copies the initial state to the new row of the trajectory, and then LEAVE replaces
-            # this state by the current state.
+            # ``rows.add`` copies the initial state to the new row of the trajectory. Then LEAVE overwrites
+            # this row with the current state.
             row.append(Call(LEAVE, (moving, before, rows.trajectory[rows.written]), (STATUS,)))
         advance = (Assign(DONE, DONE + 1), If(rows.due(), tuple(row)))
         # The time of each step is computed from the initial time, so that rounding errors do not accumulate.

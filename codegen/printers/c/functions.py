@@ -43,7 +43,7 @@ from codegen.snippets.graph import LIBRARY
 MANY = 20
 """If more than ``MANY`` short statements follow each other, several statements are printed on each line."""
 
-ONE_TEST = "A finite sum has finite terms x. After overflow, x - x is 0 only for finite x."
+ONE_TEST = "Finite terms x can have an infinite sum. But x - x is 0 only for finite x."
 """The comment before a test that all x are finite. If x is not finite, x - x is NaN."""
 
 
@@ -242,8 +242,8 @@ class _Body:
 
         Consecutive variables of one type share a declaration.
         """
-        # If a loop or branch assigns a variable, and statements after the end of the loop or branch read the
-        # variable, the variable is declared before the loop or branch.
+        # For example, a variable that is assigned in a loop and read after the loop is declared before the
+        # loop.
         waiting = self.declared.before.get(id(statement), [])
         lines: list[str] = []
         for kind, group in groupby(waiting, key=lambda x: self.printer.type_of(x[1].kind)):

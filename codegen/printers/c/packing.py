@@ -48,6 +48,7 @@ def whole(values: Sequence[str], others: Collection[str]) -> str:
     """
     # The name of the array is the text in front of the bracket.
     name = values[0].partition("[")[0]
-    # The callee reads parameter k from entry k of the array, so ``values[k]`` must be entry k of the array.
+    # The callee reads parameter k from entry k of an array. Therefore the caller can pass the array ``name``
+    # only if ``values[k]`` is entry k of this array for every k.
     same = name not in others and all(value == f"{name}[{k}]" for k, value in enumerate(values))
     return name if same else ""
