@@ -22,7 +22,8 @@ from codegen.ir.formulas import Formulas
 def force(space: Space, group: LieGroup, qs: Sequence[str], slope: Sequence[Expr]) -> tuple[Expr, ...]:
     """Return the components of the force.
 
-    Component a is -d/deps H(exp(eps e_a) q, mu) at eps = 0, where e_a is a basis element of the Lie algebra.
+    The components are n_a = -phi'(0) with phi(eps) = H(exp(eps e_a) q, mu). Here the e_a are the basis
+    elements of the Lie algebra.
     ``slope`` contains the partial derivatives of the Hamiltonian H with respect to the coordinates
     ``qs`` of q.
     """

@@ -191,15 +191,15 @@ def check_flow(
             if moved is None:
                 raise SceneError(f"the formulas for the flow of {name} cannot be evaluated", where=orbit.name)
             after = point | dict(zip(orbit.symbols, moved, strict=True))
-            pairs = [("has the time derivative", orbit.values(slopes, there), orbit.values(rates, after))]
+            pairs = [("the time derivative is", orbit.values(slopes, there), orbit.values(rates, after))]
             if tau == 0:
-                pairs.insert(0, ("has the value", moved, tuple(point[s] for s in orbit.symbols)))
+                pairs.insert(0, ("the value is", moved, tuple(point[s] for s in orbit.symbols)))
             for verb, left, right in pairs:
                 for k, (x, y) in enumerate(zip(left or (), right or (), strict=True)):
                     if not orbit.sized(x - y, (x, y)):
                         raise SceneError(
-                            f"in the flow of {name}, the formula for {orbit.symbols[k]} {verb} "
-                            f"{orbit.text(x)} at the time {elapsed} = {orbit.text(there[elapsed])}",
+                            f"in the flow of {name}, the formula for {orbit.symbols[k]} is wrong: "
+                            f"{verb} {orbit.text(x)} at the time {elapsed} = {orbit.text(there[elapsed])}",
                             where=orbit.name,
                             expected=f"{orbit.text(y)}, by the differential equations of the part {name}",
                             hint="if the part is a sum of terms whose flows do not commute, "

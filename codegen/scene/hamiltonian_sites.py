@@ -4,8 +4,8 @@ The site i has the Hamiltonian h(q_i, mu_i). A bond with the offset d has the en
 total energy E is the sum of h over all sites and of V over all bonds.
 
 The equations are q_i' = xi_i.q_i and mu_i' = n_i - ad*_{xi_i} mu_i. Here xi_i is the derivative of h with
-respect to mu_i. Let e_a be the basis elements of the Lie algebra. Component a of the force n_i is the
-derivative of -E with respect to eps at eps = 0, if q_i is replaced by exp(eps e_a) q_i in E
+respect to mu_i. Let e_a be the basis elements of the Lie algebra. Let E_a(eps) be the energy E after
+q_i is replaced by exp(eps e_a) q_i. Component a of the force n_i is -E_a'(0)
 (:mod:`codegen.scene.canonical_equations`).
 """
 
@@ -62,7 +62,7 @@ def HamiltonianSiteScene(
     - ``boundary``: "periodic" or "open".
     - ``outside``: the group element that replaces q of a missing neighbour at an open boundary. Give a column
       of ``group.size`` formulas in q, t and parameters, or a mapping from offsets to columns. A free end
-      needs an element that exerts no force on the site. Often, ``q`` is such an element.
+      needs an element that exerts no force on the site, often the coordinates ``q`` of the site itself.
     - ``parts``: named summands of ``H``.
 
     :class:`SceneError` is raised for the errors that :func:`codegen.scene.HamiltonianScene` and

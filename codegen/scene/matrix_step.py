@@ -1,8 +1,9 @@
 """Methods y1 = M y0 for the equation y' = A(t) y. The scene defines the matrix M by a formula.
 
 The formula contains the step size :data:`h`, numbers, the matrix :data:`IDENTITY`, and the function
-:func:`A`. In a step from t to t + h, A(c) denotes the matrix A(t + c h), where c is a number. Sums, products
-and the functions :func:`bracket`, :func:`projected`, :func:`expm` and :func:`logm` combine these matrices.
+:func:`A`. In a formula, A(c) is the matrix of the equation at the time t + c h, where c is a number, and t is
+the time at the beginning of the step. Sums, products and the functions :func:`bracket`, :func:`projected`,
+:func:`expm` and :func:`logm` combine these matrices.
 The values of a formula are in one of three sets (:class:`Place`): the Lie algebra, the group, or all square
 matrices. Logarithms are available only for 2 x 2 matrices. For larger matrices, the argument of :func:`expm`
 must be in the Lie algebra.
@@ -337,8 +338,7 @@ class Logarithm(Unary):
         return Place.MATRIX
 
     def closed_forms(self) -> Iterator[MatrixFormula]:
-        """Yield this logarithm, and then all exponentials and logarithms with closed forms in its
-        argument."""
+        """Yield this logarithm, and then the ``closed_forms`` of the argument."""
         yield self
         yield from super().closed_forms()
 

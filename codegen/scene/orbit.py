@@ -28,7 +28,7 @@ Both bounds are proportional to the terms, so that the test does not depend on t
 """
 
 POINTS = 4
-"""The largest number of sample points of an :class:`Orbit`, without the points of :data:`NEAR`.
+"""The largest number of sample points of an :class:`Orbit`. The points of :data:`NEAR` are not counted.
 
 The first sample point is the initial state. The distances of the other sample points from the initial state
 are about 1.

@@ -99,7 +99,7 @@ class _Check:
         return True
 
     def combinations(self, nodes: Sequence[Expr]) -> Iterator[Sides]:
-        """Yield all possible combinations of one case for each operation in ``nodes``.
+        """A combination contains one case of each operation in ``nodes``. Yield all possible combinations.
 
         For example, abs(x) has the cases x and -x. The sign of x determines the cases of abs(x),
         choose(x, a, b) and abs(-x). Therefore abs(x) and choose(x, a, b) have the same case, and abs(-x) has
@@ -130,7 +130,7 @@ class _Check:
         formulas = [f for f in _formulas(x) if f.op != "const"]
         if not formulas:
             # ``x`` is piecewise constant, for example choose(y, 1, -1), and changes only where a selection in
-            # ``x`` switches. ``run`` calls this method for the selections in ``x``, too.
+            # ``x`` switches. There, ``root`` is checked when ``run`` calls this method for that selection.
             return
         compared = False
         usual = [v[0] for point in self.orbit.points if (v := self.orbit.values((root,), point)) is not None]
@@ -138,8 +138,8 @@ class _Check:
             sides = self.beside(formula, point)
             values = [self.orbit.values((root, x), place) for place in sides]
             pairs = [v for v in values if v is not None]
-            # If ``x`` is choose(y, f, g) and ``formula`` is f, ``x`` equals f only for y > 0. At a zero of f
-            # with y <= 0, ``x`` has the same sign on both sides, so the case of ``node`` does not change.
+            # If ``x`` has the same sign at both points, ``node``, for example abs(x), does not switch between
+            # the points. For example, ``x`` = choose(y, f, g) equals g at a zero of f with y <= 0.
             if len(pairs) < 2 or (formula is not x and (pairs[0][1].value > 0) == (pairs[1][1].value > 0)):
                 continue
             compared = True
@@ -179,7 +179,9 @@ class _Check:
 
 
 def _formulas(x: Expr) -> list[Expr]:
-    """Return the formulas of ``x`` in all cases of ``x``. If ``x`` is no selection, the list is [``x``].
+    """Return the formulas between which ``x`` switches, for example b and c if ``x`` is choose(a, b, c).
+
+    If ``x`` is no selection, the list is [``x``].
 
     >>> from codegen.ir.expr import Space
     >>> a, b, c = map(Space().sym, "abc")

@@ -131,7 +131,8 @@ def _check_constant(scene: Problem, orbit: Orbit, part: SitePart) -> None:
                     expected="generators f(y) for which the exact flow over a time tau is exp(tau f(y)).y",
                     hint="split the part, or use constant generators that give the same velocity. For "
                     "example, two spins with S' = J T x S and T' = J S x T have the generators J T and J S, "
-                    "which are not constant. The generator J (S + T) of both spins is constant",
+                    "which are not constant along the flow. If both spins have the generator J (S + T), the "
+                    "velocity is the same, and the generator is constant along the flow",
                 )
 
 

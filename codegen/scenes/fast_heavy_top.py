@@ -2,10 +2,13 @@
 
 The scene is a benchmark of multibody dynamics (Brüls and Cardona 2010). R is the attitude. In the body frame,
 W is the angular velocity, X the centre of mass, and I the inertia about the fixed point. The weight is F =
-(0, 0, -m g), where m is the mass and g is the acceleration of gravity. The equations are R' = R hat(W) and I
-W' = cross(I W, W) + cross(X, R^T F), where hat(W) is the matrix of v -> cross(W, v). The angular momentum in
-space is mu = R I W, with mu' = cross(R X, F). X lies on the symmetry axis. The energy and the angular momenta
-about the vertical and about the symmetry axis are conserved.
+(0, 0, -m g), where m is the mass and g is the acceleration of gravity. The equations are
+
+    R' = R hat(W),   I W' = cross(I W, W) + cross(X, R^T F),
+
+where hat(W) is the matrix of v -> cross(W, v). The angular momentum in space is mu = R I W, with mu' =
+cross(R X, F). X lies on the symmetry axis. The energy and the angular momenta about the vertical and about
+the symmetry axis are conserved.
 """
 
 from sympy import Matrix, Rational, diag, eye

@@ -21,5 +21,5 @@ frame = Matrix([[cos(angle), 0, sin(angle)], [0, 1, 0], [-sin(angle), 0, cos(ang
 scene = rod(
     ends={(-1,): [*eye(3), 0, 0, 0], (1,): [*frame, heave * (1 - cos(w * t)), 0, length]},
     gravity=param("g", 1),
-    title="Pipe-laying: a rod between a clamp and a moving vessel, a chain on T*SE(3)",
+    title="Pipe-laying: a rod (chain on T*SE(3)) between a clamp and a moving vessel",
 )

@@ -191,8 +191,8 @@ def needed(
     - ``sweeps``: True if the module solves equations by iteration.
     - ``wide``: the common number of rows of all inverted matrices, or 0 if their sizes differ or are large.
     - ``widest``: the number of rows of the largest inverted matrix.
-    - ``chain``: the number of angles in the longest sequence of rotations in a step
-      (:func:`codegen.snippets.stumpff.limit`).
+    - ``chain``: the number of rotations in the longest chain of a step. In a chain, each angle except the
+      first is computed from the result of the preceding rotation (:func:`codegen.snippets.stumpff.limit`).
     - ``prefix``: in C, the beginning of the names of all helpers.
     - ``batch``: True if the module can integrate many systems at once.
 

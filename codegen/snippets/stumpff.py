@@ -8,8 +8,8 @@ The Stumpff functions are defined by the series c_k(z) = sum_j (-z)^j/(2j+k)!. T
 If z <= SWITCH[k], c_k is evaluated by a polynomial. If z > SWITCH[k], c_0 and c_1 are evaluated by their
 closed forms. The closed forms of c_2 and c_3 suffer from cancellation. Instead, the formulas c_2(z) =
 c_1(z/4)^2/2 and c_3(z) = (1 - c_1(z))/z are used. Let u be one unit in the last place of z. The error of
-c_k(z) is at most max |c_k(z +- u) - c_k(z)|, plus two units in the last place of c_k(z). The first term is
-necessary because sqrt z is rounded. For z above :func:`limit`, c_k(z) is NaN.
+c_k(z) is at most max |c_k(z +- u) - c_k(z)|, plus two units in the last place of c_k(z). For z above
+:func:`limit`, c_k(z) is NaN.
 """
 
 from __future__ import annotations
@@ -39,8 +39,8 @@ SETS = tuple(orders for n in range(1, 5) for orders in combinations(range(4), n)
 LEFT = 10
 """The error of the last rotation in a chain of rotations should be at most about 2^-LEFT.
 
-The function :func:`limit` defines chains, and limits the angles to achieve this error. In long chains, the
-error can be larger.
+In a chain, each angle except the first is computed from the result of the preceding rotation. The function
+:func:`limit` limits the angles to keep the error below this bound. In long chains, the error can be larger.
 """
 
 
@@ -56,10 +56,10 @@ def limit(precision: Precision = DOUBLE, chain: int = 1) -> float:
         a^chain 8^(chain-1) 2^-bits,   with bits = ``precision.bits``.
 
     Let m be the largest integer for which a chain of rotations by the angle 2^m has an error of at most
-    2^-LEFT (:data:`LEFT`). If m > floor(2*bits/5), m is reduced to floor(2*bits/5). Then the error of a
-    rotated momentum, about a^2 2^-bits, is at most about 2^(-bits/5). If m < floor(bits/6), m is increased
-    to floor(bits/6), because the formula above overestimates the error of long chains. The result is 4^m,
-    the square of the angle 2^m.
+    2^-LEFT (:data:`LEFT`). If m > floor(2*bits/5), m is reduced to floor(2*bits/5), because one
+    rotation by the angle 2^m gives a momentum an error of about 4^m 2^-bits. With the reduced m, this error
+    is at most about 2^(-bits/5). If m < floor(bits/6), m is increased to floor(bits/6), because the formula
+    above overestimates the error of long chains. The result is 4^m, the square of the angle 2^m.
 
     >>> [limit(DOUBLE, n) ** 0.5 for n in (1, 2, 3, 4, 9)]
     [2097152.0, 1048576.0, 4096.0, 256.0, 256.0]

@@ -235,12 +235,12 @@ def _beside(tableau: Tableau, wanted: Sequence[tuple[Family, int | None]], requi
 
 
 def _bounding(tableau: Tableau, labels: Collection[str]) -> list[Reading]:
-    """Return the families of ``tableau`` whose attribute ``bounds_others`` is true.
+    """Return one tuple for each family of ``tableau`` whose attribute ``bounds_others`` is true.
 
     For example, the order in ``rk`` is an upper bound of the order in ``cg``.
 
-    Each entry of the result is a tuple: a form of the tableau, a family that accepts this form, and the
-    claimed order in this family. Families with a label in ``labels`` are omitted.
+    Each tuple contains a form of the tableau, the family, which accepts this form, and the claimed order in
+    the family. Families with a label in ``labels`` are omitted.
     """
     from orderconds.checking.claimable import claimable_families
     from orderconds.tableau.recognise import as_composition
@@ -275,10 +275,10 @@ def _beyond(
 
 
 def _bound(family: Family, computed: Sequence[FamilyOrder]) -> FamilyOrder | None:
-    """Return the smallest known upper bound of the order in ``family``: one of the results ``computed``.
+    """Return the entry of ``computed`` that gives the smallest upper bound of the order in ``family``.
 
-    Each result in ``computed`` is for one family G. If order n in ``family`` implies order n in G, the order
-    in ``family`` is at most the order in G. If there is no bound, return None.
+    Each entry contains the order of the tableau in one family G. If order n in ``family`` implies order n in
+    G, the order in ``family`` is at most the order in G. If no entry gives a bound, return None.
     """
     if not computed:
         return None

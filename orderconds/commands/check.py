@@ -449,7 +449,7 @@ def _print_failing(family: FamilyOrder) -> None:
         return
     count = len(family.failing)
     if not count:
-        click.echo(f"  {family.family}: no method of this family has order {n}")
+        click.echo(f"  {family.family}: order {family.order} is the highest possible order in this family")
         return
     text = "1 condition" if count == 1 else f"{count} conditions"
     click.echo(f"  {family.family}: {text} of order {n} not met")

@@ -41,8 +41,7 @@ TEXTS = ("name", "family", "source", "bibtex", "base", "order", "embedded_order"
 ROWS = ("b", "b_hat", "gamma", "alpha", "beta", "embedded_b", "count", "start", "c")
 MATRICES = ("A", "A_hat", "exponentials")
 KEYS = frozenset((*TEXTS, *ROWS, *MATRICES, "embedded", "stage", "update", "low_storage"))
-"""Keys of a tableau file. The function :func:`to_arrays` represents the values of these keys. The function
-omits all other keys."""
+"""Keys of a tableau file that :func:`to_arrays` converts to arrays or texts. All other keys are omitted."""
 ROUNDED = 12
 """A decimal in an imported file is considered exact if it has fewer than ROUNDED significant digits."""
 

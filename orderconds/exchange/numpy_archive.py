@@ -1,5 +1,5 @@
-"""NumPy archives (``.npz``). For example, the array ``A`` contains the entries of A as doubles, and
-``A_exact`` contains the exact entries as text.
+"""NumPy archives (``.npz``). For example, the matrix A of a tableau becomes two arrays: ``A`` contains the
+entries as doubles, and ``A_exact`` contains the exact entries as text.
 
 If ``A_exact`` is missing, the coefficients are the doubles in ``A``. Arrays of Python objects are refused.
 The array ``order`` contains the claimed order in the family of the tableau. The array ``claims`` contains

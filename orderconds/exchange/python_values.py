@@ -31,8 +31,8 @@ TYPED_CALLS = ("array", "asarray", "matrix")
 """Constructors of arrays whose entries have one common type. In an array of integers, for example, no entry
 can be 1/2."""
 NARROW = ("16", "32", "complex", "int", "bool")
-"""Parts of the names of types such as ``float32`` and ``int64``. An array of one of these types
-becomes an unknown value (:class:`Computed`)."""
+"""If the name of a type contains one of these texts, an array of this type becomes an unknown value
+(:class:`Computed`). For example, ``float32`` contains ``32``, and ``int64`` contains ``int``."""
 COPYING_CALLS = ("array", "Matrix", "ImmutableMatrix", "matrix")
 """Constructors of arrays that copy their argument and its rows. ``list`` and ``tuple`` do not copy the
 rows. ``asarray`` may return its argument without a copy."""
@@ -57,8 +57,7 @@ class Array:
     """If two arrays have equal values of ``memory``, a change of one array may change the other array."""
 
     def parts(self) -> set[int]:
-        """Return the set of the values of :attr:`memory` for this array and for each array inside this array,
-        such as a row."""
+        """Return the numbers :attr:`memory` of this array and of all nested arrays, for example its rows."""
         return {self.memory}.union(*(x.parts() for x in self.items if isinstance(x, Array)))
 
 

@@ -49,9 +49,9 @@ tree."""
 def multiplier(tree: Velocity) -> int:
     """Return the factor by which both sides of the condition of a tree are multiplied.
 
-    In a product of exponentials, the coefficient of a word of k equal letters has the denominator k!. Each
-    node of the tree that is an object :class:`Velocity` has a word. A word of k equal letters gives the
-    factor k!, and all other words give the factor 1. The result is the product of these factors.
+    In a product of exponentials, the coefficient of a word of k equal letters has the denominator k!. In
+    the tree, each node of type :class:`Velocity` has a word. A word of k equal letters gives the factor k!,
+    and all other words give the factor 1. The result is the product of these factors.
 
     >>> from orderconds.series.action_trees import velocity
     >>> multiplier(velocity((velocity(), velocity())))
@@ -237,8 +237,7 @@ class CrouchGrossmanFormula(ExponentialsFormula):
         The group element belongs to stage ``row``. If ``row`` is None, the group element is the update.
 
         The word consists of the trees in ``before``, a new letter x, and the trees in ``after``. The letter x
-        comes from stage ``stage``: the velocity of this stage is the sum of x and a linear combination of
-        trees.
+        denotes a perturbation that is added to the velocity of stage ``stage``.
         """
         return product(_runge_kutta(row, stage), self.around(row, stage, before, after))
 
@@ -274,8 +273,7 @@ class CommutatorFreeFormula(ExponentialsFormula):
         The group element belongs to stage ``row``. If ``row`` is None, the group element is the update.
 
         The word consists of the trees in ``before``, a new letter x, and the trees in ``after``. The letter x
-        comes from stage ``stage``: the velocity of this stage is the sum of x and a linear combination of
-        trees.
+        denotes a perturbation that is added to the velocity of stage ``stage``.
         """
         place = self.place()
         inner = product(self._entry(row, place, stage), self.around(row, place, before, after))
@@ -321,8 +319,7 @@ class MuntheKaasFormula(ActionFormula):
         The exponential belongs to stage ``row``, or to the update if ``row`` is None.
 
         The word consists of the trees in ``before``, a new letter x, and the trees in ``after``. The letter x
-        comes from stage ``stage``: the velocity of this stage is the sum of x and a linear combination of
-        trees.
+        denotes a perturbation that is added to the velocity of stage ``stage``.
         """
         return self._exponential(row, (*before, stage, *after))
 
@@ -332,8 +329,10 @@ class MuntheKaasFormula(ActionFormula):
         )
 
     def _power(self, row: str | None, n: int, word: Marked) -> Formula:
-        """Return the coefficient of ``word`` in the n-th power of an exponent. The exponent belongs to stage
-        ``row``, or to the update if ``row`` is None."""
+        """Return the coefficient of ``word`` in X_i^n for i = ``row``, or in Y^n if ``row`` is None.
+
+        The class docstring defines X_i and Y.
+        """
         if n == 0 or len(word) < n:
             return one() if n == len(word) else zero()
         stages = [letter for letter in word if isinstance(letter, str)] + ([] if row is None else [row])
@@ -374,10 +373,10 @@ class MuntheKaasFormula(ActionFormula):
         return total(*terms)
 
     def _terms(self, letters: int) -> Terms:
-        """Return the terms ``q X^n xi X^m`` of the truncated series dexpinv_X xi, as triples (q, m, n). In a
-        triple, m comes before n, because the right factor X^m acts before the left factor X^n.
+        """Return the terms ``q X^n xi X^m`` of the truncated series dexpinv_X xi, as triples (q, m, n).
 
-        The sum m + n is at most ``letters``.
+        The second entry m is the power of the right factor, which acts first. The sum m + n is at most
+        ``letters``.
         """
         return dexpinv_terms(letters if self._cutoff is None else min(letters, self._cutoff))
 

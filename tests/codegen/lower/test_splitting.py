@@ -408,9 +408,9 @@ def test_a_flow_may_be_stated_where_it_is_not_recognised():
         # Summands that do not commute: the flow of p^2/2, then that of 3 p q.
         (
             lambda q, p: ([(q + TAU * p) * exp(3 * TAU)], [p * exp(-3 * TAU)]),
-            "the formula for q0 has the time derivative",
+            "the formula for q0 is wrong: the time derivative is",
         ),
-        (lambda q, p: ([q + 1], [p]), "the formula for q0 has the value 2"),
+        (lambda q, p: ([q + 1], [p]), "the formula for q0 is wrong: the value is 2"),
     ],
 )
 def test_what_is_stated_to_be_a_flow_and_is_none_is_refused(flow, message):
