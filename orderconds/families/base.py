@@ -258,10 +258,10 @@ class Family(ABC):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family if the file of ``tableau`` should claim an order in this family, else None.
+        """Return this family if :func:`orderconds.check` with ``complete=True`` requires that the file of
+        ``tableau`` claims an order in this family, else None.
 
-        If the file should claim an order but claims none, the verdict of :func:`orderconds.check` with
-        ``complete=True`` is ``fails``.
+        If a required claim is missing, the verdict of the check is ``fails``.
         """
         return None
 
@@ -351,12 +351,10 @@ class Family(ABC):
         return None
 
     def first_unmet(self, order: int) -> OrderCondition | None:
-        """Return a condition that limits the order of the methods of this family, or None if no such
-        condition is known.
+        """Return one condition of order ``order``, or None. The base class returns None.
 
-        The returned condition belongs to the order ``order``. Let p be the highest order of a method of this
-        family. No method has order p + 1, because the condition that is returned for ``order`` = p + 1
-        contradicts the other conditions of orders 1, ..., p + 1.
+        Let p be the highest order of a method of this family. If ``order`` is p + 1, no method satisfies both
+        the returned condition and all other conditions of orders 1, ..., p + 1.
         """
         return None
 

@@ -168,7 +168,8 @@ def composition_formula(word: Word, block: BlockFormula, kind: str = "i") -> For
     """Return a formula for n! c. Here n is the number of letters in ``word``, and c is the coefficient of
     ``word`` in the series of a step. The step is a composition of basic steps, and ``block`` returns the
     coefficient of a word in the series of one basic step (:data:`BlockFormula`). The formula is a sum over
-    indices. ``kind`` is the first index, for example "i" for i, j, k, ....
+    indices. The indices are printed as i, j, k, ... if ``kind`` is a lower-case letter, and as I, J, K, ...
+    if ``kind`` is an upper-case letter.
 
     >>> from orderconds.formula import named
     >>> step = lambda letters, i: (coefficient("gamma", i), factorial(len(letters)))

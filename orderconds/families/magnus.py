@@ -5,9 +5,10 @@ If all brackets are expanded, Omega = sum_i omega_i A_i + sum_{ij} omega_ij A_j 
 A_j A_i, the factor A_i acts first. If a step is a product of several exponentials, Omega is the logarithm of
 the product.
 
-Each condition belongs to a Lyndon word. The letter k of a word denotes X_k in A(t) = X_1 + t X_2 + .... The
-condition states that the coefficient of the word in Omega equals its coefficient in the Magnus expansion
-(Iserles, Munthe-Kaas, Noersett and Zanna, Acta Numerica 9 (2000) 215, Section 5).
+Each condition belongs to a Lyndon word. The letters 1, 2, ... denote the coefficients X_1, X_2, ... of the
+series A(t) = X_1 + t X_2 + .... The condition states that the coefficient of the word in Omega equals its
+coefficient in the Magnus expansion (Iserles, Munthe-Kaas, Noersett and Zanna, Acta Numerica 9 (2000) 215,
+Section 5).
 """
 
 from __future__ import annotations

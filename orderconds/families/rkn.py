@@ -52,8 +52,8 @@ T, V = 0, 1
 
 @register
 class NystroemFamily(Family):
-    """Splittings of the Hamiltonian T + V, where T is quadratic in p and V depends on q only. The key ``rkn``
-    of the tableau file states which part is V.
+    """Splittings of the Hamiltonian T + V, where T is quadratic in p and V depends on q only. A tableau file
+    can use other names for T and V. The key ``rkn`` of the file contains the name of V.
 
     >>> [len(NystroemFamily().conditions(n)) for n in range(1, 6)]
     [2, 1, 2, 2, 4]

@@ -66,7 +66,7 @@ class Dependences:
     def combinations(self) -> Iterator[tuple[OrderCondition, Combination | None]]:
         """Yield a pair (condition, combination) for each dependent condition. The combination expresses the
         left-hand side of the condition as a polynomial in left-hand sides of independent conditions. The
-        combination is None if the residues modulo ``primes`` do not determine the coefficients."""
+        combination is None if its coefficients cannot be computed from their residues modulo ``primes``."""
         for condition in self.residues[0]:
             yield condition, self._lifted(condition)
 
@@ -222,8 +222,8 @@ class _Sampling:
 
     def values(self, count: int, root: int | None) -> dict[OrderCondition, _Value]:
         """Return both sides of each condition modulo ``prime``. The left-hand side has one value for each of
-        ``count`` random methods. The right-hand side is one number. If ``root`` is an integer, the formulas
-        contain only one radical, a square root, and ``root`` replaces this square root."""
+        ``count`` random methods. The right-hand side is one number. If ``root`` is None, random residues
+        replace all radicals in the formulas. Otherwise, ``root`` replaces every square root."""
         generator = Random(self.draws.number(f"members modulo {self.prime}", 256))
         ring = _Members(self.prime, count, generator, root)
         known = {u.constant: ring.random(generator) for u in self.symbolic.decimals()}

@@ -165,8 +165,9 @@ def _member(symbolic: SymbolicCoefficients, draws: Draws, surd: Surd | None) -> 
 
 
 class _Scalars:
-    """Converts the numbers in formulas to elements of Q(sqrt(d)). The rounded decimals and the roots of
-    polynomials are treated as variables. The value of each variable is a random rational number."""
+    """Converts the numbers in formulas to elements of Q(sqrt(d)). A random rational number replaces each
+    rounded decimal and each root of a polynomial. The module :mod:`orderconds.tableau.random_member` states
+    the reason."""
 
     def __init__(self, symbolic: SymbolicCoefficients, draws: Draws, surd: Surd) -> None:
         self._drawn, self._surd = RandomMember(symbolic, draws), surd

@@ -197,10 +197,11 @@ def _primitive(field: NumberField, powers: list[Algebraic]) -> tuple[int | None,
     """Find an element c of the algebra K[x]/(p) such that the powers of c span the algebra over Q.
 
     Let K be ``field``, let a be the generator of K over Q, and let k be the length of ``powers``. The
-    polynomial p is x^k - powers[k-1] x^(k-1) - ... - powers[0].
+    polynomial p is x^k - powers[k-1] x^(k-1) - ... - powers[0]. The elements x, a x, x + a, x - a, x + 2 a,
+    x - 2 a, ... of the algebra are tried in this order.
 
-    Return a pair. The first entry is an integer m if c = x + m a, and None if c = a x. Here x is the residue
-    class of the variable. The second entry describes the algebra (:class:`_Relation`).
+    Return a pair. The first entry is None if c = a x. Otherwise c = x + m a, and the first entry is the
+    integer m. The second entry describes the algebra (:class:`_Relation`).
     """
     dimension = field.degree * len(powers)
     for multiplier in _multipliers(field.degree):

@@ -77,10 +77,10 @@ class ActionSeries(ABC):
 
     @abstractmethod
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
-        """The velocity of stage ``stage`` is a linear combination of trees. Add a new letter x to this linear
-        combination. Then expand the group element of stage ``row``, or of the update if ``row`` is the number
-        of stages. Return the coefficient of the word that consists of the trees in ``before``, the letter x,
-        and the trees in ``after``."""
+        """The letters of words are trees. The velocity xi of stage ``stage`` is a linear combination of
+        letters. Replace xi by xi + x, where x is an additional letter. Then expand the group element of stage
+        ``row``, or of the update if ``row`` is the number of stages. Return the coefficient of the word that
+        consists of the letters ``before``, the letter x, and the letters ``after``."""
 
     def stage_coefficients(self, word: Word) -> Stages:
         """Return the coefficient of ``word`` in the group element of each stage."""
@@ -164,16 +164,16 @@ class ActionSeries(ABC):
         return self._sum(b * v for b, v in zip(self.weights, values, strict=True))
 
     def update_words(self, vertices: int) -> dict[Word, Element]:
-        """Let q1 be the position after the step, and let f be a smooth function on the group. Expand f(q1) in
-        words of trees. Return a map from words to their coefficients in this expansion. The map contains all
-        words with at most ``vertices`` vertices in total.
+        """Let q0 be the position before the step, q1 the position after the step, and mu1 the momentum after
+        the step. For each smooth function f on the group, f(q1) is the sum of
+        ``coefficient(w) (F(t_1) ... F(t_k) f)(q0)`` over all words ``w = t_1 ... t_k`` of trees. Return a map
+        from w to ``coefficient(w)``. The map contains all words with at most ``vertices`` vertices in total.
 
-        Let q0 be the position before the step, and mu1 the momentum after the step. Each tree t denotes a
-        function of position and momentum with values in g (:mod:`orderconds.series.action_trees`). Insert the
-        position q0 and the momentum mu1 into this function, and divide the value by the order of the symmetry
-        group of t. The result is a vector in g. This vector defines a right-invariant vector field ``F(t)``
-        on the group. The expansion of ``f(q1)`` is the sum of ``coefficient(w) (F(t_1) ... F(t_k) f)(q0)``
-        over all words ``w = t_1 ... t_k``.
+        ``F(t)`` is a right-invariant vector field on the group, which is defined as follows. Each tree t
+        denotes a function of position and momentum with values in g
+        (:mod:`orderconds.series.action_trees`). Insert the position q0 and the momentum mu1 into this
+        function, and divide the value by the order of the symmetry group of t. The result is a vector in g.
+        This vector defines ``F(t)``.
         """
         return {word: self.coefficient(self.stages, word) for n in range(vertices + 1) for word in words(n)}
 
@@ -214,9 +214,9 @@ class CommutatorFreeSeries(ActionSeries):
         return self._before(row, word)[-1]
 
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
-        """Return the coefficient of the word (``before``, x, ``after``) in the group element with index
-        ``row``. The letter x is a perturbation of the velocity of stage ``stage``
-        (:meth:`ActionSeries.insertion`)."""
+        """Replace the velocity xi of stage ``stage`` by xi + x, where x is an additional letter. Then expand
+        the group element with index ``row`` in words, and return the coefficient of the word
+        (``before``, x, ``after``). See also :meth:`ActionSeries.insertion`."""
         total = self.ring.zero
         for place, exponential in enumerate(self.rows[row]):
             for varied, value in exponential:
@@ -227,9 +227,13 @@ class CommutatorFreeSeries(ActionSeries):
     def _through(self, row: int, place: int, before: Word, after: Word) -> Element:
         """Let Z be the exponent ``self.rows[row][place]``. Replace Z by Z + x, where x is an additional
         letter. Return the coefficient of the word (``before``, x, ``after``) in the product of the
-        exponentials of ``self.rows[row]``. The powers of Z + x contain products with factors Z on both sides
-        of x. Therefore the letters of ``before`` come from Z or from exponents with indices below ``place``,
-        and the letters of ``after`` come from Z or from exponents with indices above ``place``."""
+        exponentials of ``self.rows[row]``.
+
+        The terms of exp(Z + x) with one factor x are Z^j x Z^k / (j + k + 1)!. The last j letters of
+        ``before`` belong to Z^j, and the other letters of ``before`` to the exponentials before ``place``.
+        The first k letters of ``after`` belong to Z^k, and the other letters of ``after`` to the exponentials
+        after ``place``. The coefficient is a sum over all j and k.
+        """
         exponential, length = self.rows[row][place], len(before)
         left, run = [], self.ring.one
         for r in range(length + 1):

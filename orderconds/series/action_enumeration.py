@@ -101,8 +101,9 @@ def _velocities(vertices: int, limit: float) -> tuple[Velocity, ...]:
 
 @cache
 def _words(vertices: int, limit: float) -> tuple[tuple[int, Word], ...]:
-    """Return pairs (cost, word), sorted by cost. The trees in a word have ``vertices`` vertices in total. The
-    cost is at most ``limit``."""
+    """Return pairs (cost, word), sorted by cost. A word is a sequence of g-valued trees with ``vertices``
+    vertices in total. The cost of a word is the sum of the attributes ``nesting`` of its trees, and is at
+    most ``limit``."""
     if vertices == 0:
         return ((0, ()),)
     words = []

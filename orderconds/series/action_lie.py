@@ -7,8 +7,8 @@ dexpinv_{(r),X} is dexpinv_X truncated after the r-th power of X.
 
 The exponents are expanded in words of trees (:mod:`orderconds.series.action`). If one velocity xi_j is
 replaced by xi_j + x with an additional letter x, the exponents also contain words (u, x, v), where u and v
-are words of trees. The coefficients of the trees in the stage momenta are computed from the coefficients of
-the words (u, x, v).
+are words of trees. The momentum of each stage is a sum over trees. The coefficients in this sum are computed
+from the coefficients of the words (u, x, v).
 """
 
 from __future__ import annotations
@@ -72,10 +72,10 @@ class MuntheKaasActionSeries(ActionSeries):
         return self._exponential(0, word) if word else [self.ring.one] * self.stages
 
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
-        """The velocity of stage ``stage`` is a linear combination of trees. Add a new letter x to this linear
-        combination. Then expand the group element of stage ``row``, or of the update if ``row`` is the number
-        of stages. Return the coefficient of the word that consists of the trees in ``before``, the letter x,
-        and the trees in ``after``."""
+        """The letters of words are trees. The velocity xi of stage ``stage`` is a linear combination of
+        letters. Replace xi by xi + x, where x is an additional letter. Then expand the group element of stage
+        ``row``, or of the update if ``row`` is the number of stages. Return the coefficient of the word that
+        consists of the letters ``before``, the letter x, and the letters ``after``."""
         update, place = (1, 0) if row == self.stages else (0, row)
         return self._varied_exponential(update, before, after)[place].get(stage, self.ring.zero)
 
@@ -216,13 +216,12 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_before(self, before: Word, after: Word, behind: Word) -> list[Varied]:
-        """Return a list with one map (:data:`Varied`) for each stage j. The map contains coefficients of the
-        series for dexpinv_{X_j} z. Here exp(X_j) is the group element of stage j, and z is a letter that does
-        not occur in X_j. The method :meth:`_terms` defines the series.
+        """Let x and z be two additional letters. Replace the velocity xi_i of one stage i by xi_i + x. Let
+        exp(X_j) be the resulting group element of stage j, and let w_ij be the coefficient of the word
+        (``before``, x, ``after``, z, ``behind``) in the series dexpinv_{X_j} z (:meth:`_terms`). The letter z
+        does not occur in X_j.
 
-        The keys of each map are stages i. For key i, a new letter x is added to the velocity of stage i.
-        Words in X_j can then contain x, because X_j is a series in the velocities of the stages. The value
-        for key i is the coefficient of the word (``before``, x, ``after``, z, ``behind``)."""
+        Return a list with one map (:data:`Varied`) for each stage j. The map for j takes i to w_ij."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(before) + 1 + len(after), len(behind)):
             varied = self._varied_power(0, m, before, after)
@@ -232,13 +231,12 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _varied_behind(self, first: Word, before: Word, after: Word) -> list[Varied]:
-        """Return a list with one map (:data:`Varied`) for each stage j. The map contains coefficients of the
-        series for dexpinv_{X_j} z. Here exp(X_j) is the group element of stage j, and z is a letter that does
-        not occur in X_j. The method :meth:`_terms` defines the series.
+        """Let x and z be two additional letters. Replace the velocity xi_i of one stage i by xi_i + x. Let
+        exp(X_j) be the resulting group element of stage j, and let w_ij be the coefficient of the word
+        (``first``, z, ``before``, x, ``after``) in the series dexpinv_{X_j} z (:meth:`_terms`). The letter z
+        does not occur in X_j.
 
-        The keys of each map are stages i. For key i, a new letter x is added to the velocity of stage i.
-        Words in X_j can then contain x, because X_j is a series in the velocities of the stages. The value
-        for key i is the coefficient of the word (``first``, z, ``before``, x, ``after``)."""
+        Return a list with one map (:data:`Varied`) for each stage j. The map for j takes i to w_ij."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(first), len(before) + 1 + len(after)):
             scales = [q * x for x in self._power(0, m, first)] if m else [q] * self.stages

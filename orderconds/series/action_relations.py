@@ -35,8 +35,8 @@ from orderconds.series.action_switching import classes
 from orderconds.series.action_trees import Velocity
 
 Polynomial = tuple[tuple[Fraction, tuple[Velocity, ...]], ...]
-"""A polynomial in the left-hand sides of order conditions, as a tuple of terms. A term is a pair (q, trees):
-the number q, multiplied by the left-hand side of the order condition of each tree in ``trees``."""
+"""A polynomial in the left-hand sides of order conditions, as a tuple of terms. For example, let x and y be
+the left-hand sides of the order conditions of the trees s and t. The term 3 x y is the pair (3, (s, t))."""
 
 
 def relations(family: RandomSeries, independent: Sequence[Sequence[Velocity]]) -> dict[Velocity, Polynomial]:

@@ -11,9 +11,9 @@ between a and b. In A, the vertex a is the root, b is denoted by H, and ``*`` ma
 among the branches of b. In B, the vertex b is the root, and ``o(w | M)`` is at this place. For example, if
 all words and multisets are empty, A is ``o(|H(*))``, and B is ``o(o)``.
 
-The left-hand side of each condition contains one sum over the stages for the root of A, and one sum over the
-stages for the root of B. In the conditions of A and B, only the order of these two sums is different.
-Therefore the left-hand sides are equal. The right-hand sides are equal, too.
+In the left-hand side of each condition, one sum over the stages belongs to the vertex a, and one sum over
+the stages belongs to the vertex b. In the conditions of A and B, only the order of these two sums is
+different. Therefore the left-hand sides are equal. The right-hand sides are equal, too.
 """
 
 from __future__ import annotations

@@ -170,11 +170,11 @@ def _inside(letters: str, momenta: Momenta) -> str:
 
 
 def mixing(word: Word) -> int:
-    """Return one summand of the cost of a :class:`Velocity` with the word ``word``. If all letters of the
-    word are equal, the summand is zero. Otherwise, the summand is 5 (k - 1), where k is the number of
-    letters.
+    """Return one summand of the cost of a tree (w, M), where w is ``word`` (:class:`Velocity`). The cost of
+    a tree measures how difficult the order condition of the tree is to read.
 
-    The cost of a tree measures how difficult the order condition of the tree is to read.
+    If all letters of the word are equal, the summand is zero. Otherwise, the summand is 5 (k - 1), where k is
+    the number of letters.
 
     >>> mixing((velocity(), velocity())), mixing((velocity(), velocity((velocity(),))))
     (0, 5)

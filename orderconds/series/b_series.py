@@ -41,8 +41,8 @@ class ElementaryWeights(Generic[TreeT]):
     """The elementary weights ``sum_i b_i tau_t(i)`` of a method, for trees t in an arbitrary encoding.
 
     The function ``branches`` returns the branches of a tree t as pairs (kind, u), where ``kind`` is an index,
-    and u is a subtree. The number tau_t(i) is the product of ``sum_j a_ij tau_u(j)`` over these pairs. Here
-    (a_ij) is the s x s matrix ``matrices[kind]`` over ``ring``.
+    and u is a subtree. The number tau_t(i) is the product of ``sum_j matrices[kind][i][j] tau_u(j)`` over
+    these pairs. Each matrix is an s x s matrix over ``ring``, where s is the number of stages.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.trees.directed import branches

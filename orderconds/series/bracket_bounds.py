@@ -65,8 +65,9 @@ def newest_factors(x: Mapping[Word, Element], first: int) -> dict[int, Polynomia
     Return a map from each new letter n to a polynomial P_n in the old letters.
 
     The polynomial x is a linear combination of letters and (nested) brackets, expanded into words. A word is
-    a tuple of letters. In P_n, the coefficient of a non-empty word w of old letters is the coefficient of the
-    word (w, n) in x. If P_n is zero, n is not a key of the map. The module docstring explains the use of P_n.
+    a tuple of letters. To obtain P_n, take all terms of x whose words consist of one or more old letters,
+    followed by n, and remove the letter n at the end of each word. If P_n is zero, n is not a key of the map.
+    The module docstring explains the use of P_n.
 
     >>> {n: {w: str(x) for w, x in p.items()} for n, p in newest_factors({(0, 1): 2, (1, 0): -2}, 1).items()}
     {1: {(0,): '2'}}

@@ -65,8 +65,8 @@ def _moved(ring: Ring, program: BracketProgram) -> Iterator[BracketProgram]:
 def _with(
     ring: Ring, program: BracketProgram, r: int, names: tuple[Name, Name], t: Element
 ) -> BracketProgram:
-    """Return a program in which the bracket B_r + t B_q replaces the bracket B_r. ``names`` contains the
-    names of the brackets B_q and B_r. The two brackets must have the same left factor."""
+    """Return a program in which the bracket B_r + t B_q replaces the bracket B_r. The argument ``names`` is
+    the pair (("B", q), ("B", r)). The brackets B_q and B_r must have the same left factor."""
 
     def given_back(row: Row) -> Row:
         if names[1] not in row:

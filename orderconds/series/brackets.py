@@ -43,9 +43,9 @@ class BracketProgram:
     - ``stages``: the rows of u_1, ..., u_s.
     - ``update``: the row of u.
     - ``least``: a lower bound for the number of brackets in every program that computes the arguments.
-    - ``grades``: integers g_1, ..., g_s. Choose the numbers c_1, ..., c_(j-1) such that
-      h (c_1 k_1 + ... + c_(j-1) k_(j-1) + k_j) = O(h^g), with g as large as possible, but at most the order
-      of the method. Then g_j = g.
+    - ``grades``: integers g_1, ..., g_s. Let p be the order of the method. Then g_j is the largest number g
+      in 1, ..., p such that h (x_1 k_1 + ... + x_(j-1) k_(j-1) + k_j) = O(h^g) for some numbers x_1, ...,
+      x_(j-1).
 
     >>> from orderconds.ring import QQ
     >>> euler = BracketProgram((), ({},), {("k", 0): QQ.one}, 0, (1,))
@@ -147,8 +147,9 @@ def _graded_bases(
 def _arguments(
     algebra: GradedAlgebra, rows: Sequence[Sequence[Element]], bases: Sequence[tuple[int, list[Element]]]
 ) -> list[Polynomial]:
-    """Return the arguments of the exponentials: one for each stage, and one for the step. In these
-    polynomials, the letter j denotes the element h q_(j+1). The module docstring defines q_1, q_2, ...."""
+    """Return the arguments of the exponentials as polynomials: one for each stage, and one for the step. The
+    letters 0, 1, 2, ... denote h q_1, h q_2, h q_3, .... Here h is the step size, and q_j is the sum of k_j
+    and multiples of k_1, ..., k_(j-1) (module docstring)."""
     ring, values, pulled, arguments = algebra.ring, list[Polynomial](), list[Polynomial](), list[Polynomial]()
     for j, (_, row) in enumerate(bases):
         earlier = [(ring.zero - x, value) for x, value in zip(row, values, strict=False)]
@@ -165,8 +166,9 @@ def _limit(algebra: GradedAlgebra, arguments: Sequence[Polynomial], i: int) -> i
 
 
 def _shared(algebra: GradedAlgebra, arguments: Sequence[Polynomial]) -> dict[int, list[Polynomial]]:
-    """Return a map from an index i to a list of polynomials. A program that computes these polynomials before
-    ``arguments[i]`` may need fewer brackets for a later argument."""
+    """Return a map from indices i to lists of polynomials. If a program computes the polynomials of index i
+    first, then ``arguments[i]``, and then ``arguments[i + 1]``, ``arguments[i + 2]``, ..., it may need fewer
+    brackets."""
     one, shared = algebra.ring.one, dict[int, list[Polynomial]]()
     stages = [algebra.cut(u, algebra.largest - 1) for u in arguments[:-1]]
     for i, argument in enumerate(stages):
@@ -365,8 +367,8 @@ class _Search:
 
         - the row of the element (:class:`BracketProgram`)
         - the element as a polynomial
-        - the polynomial y in the outer bracket [q_1 + x, y + C_1], or zero if there is no outer bracket
-          (:class:`_Shape` defines q_1, x, y and C_1)
+        - the right factor of the outer bracket (:class:`_Shape`) as a polynomial, without the inner bracket
+          that is added to this factor; zero if there is no outer bracket
         """
         one, size = self.ring.one, len(self.pool)
 
