@@ -1,6 +1,6 @@
 """Selection of independent order conditions of variational Lie group methods. Each condition belongs to one
-tree (:mod:`orderconds.series.action`). The left-hand sides of the conditions are evaluated modulo a prime,
-for many random methods and for the exact flow.
+tree (:mod:`orderconds.series.action`). For many random methods, the left-hand sides of the conditions are
+evaluated modulo a prime. For the exact flow, the right-hand sides replace the left-hand sides.
 
 A condition of order n is dependent if its left-hand side is a polynomial in the left-hand sides of other
 conditions up to order n. This polynomial must be the same for every method **and for the exact flow**.

@@ -112,11 +112,11 @@ class DexpinvSeries:
         return sums
 
     def _around(self, before: int, start: Forest, behind: int, end: Forest) -> list[Element] | None:
-        """Return a list with one entry for each stage i: the coefficient of one word in the truncated series
-        dexpinv_{u_i} x. Here exp(u_i) y0 is the value of stage i, and x is a letter. The word consists of the
-        letters of ``start``, the letter x, and the letters of ``end``, in this order. Return None if no term
-        of the series can contain this word. ``before`` and ``behind`` are the numbers of letters in ``start``
-        and ``end``."""
+        """Let exp(u_i) y0 be the value of stage i, and let x be a letter. Consider the word that consists of
+        the letters of ``start``, the letter x, and the letters of ``end``, in this order. Return a list with
+        one entry for each stage i: the coefficient of this word in the truncated series dexpinv_{u_i} x.
+        Return None if no term of the series can contain this word. ``before`` and ``behind`` are the numbers
+        of letters in ``start`` and ``end``."""
         values = None
         for q, m, n in self._present(before, behind):
             if m and n:
@@ -130,11 +130,11 @@ class DexpinvSeries:
         return values
 
     def _present(self, before: int, behind: int) -> list[tuple[Element, int, int]]:
-        """Let x be a letter, and let u be a linear combination of non-empty words. Return those terms of the
-        truncated series dexpinv_u x that can contain a word (v, x, w), where v is a word of ``before``
-        letters, and w is a word of ``behind`` letters. Each term has the form q u^n x u^m with a coefficient
-        q, and is returned as the triple (q, m, n). Products are read from right to left, and words from left
-        to right. Therefore u^m gives the letters v, and u^n gives the letters w.
+        """Let u be a linear combination of non-empty words. Let (v, x, w) be a word that consists of a word v
+        of length ``before``, a letter x, and a word w of length ``behind``. Return the terms of the truncated
+        series dexpinv_u x that can contain the word (v, x, w). A term q u^n x u^m with the coefficient q is
+        returned as the triple (q, m, n). The rightmost factor of a term gives the first letters of a word:
+        u^m gives v, and u^n gives w.
 
         - If ``before`` is zero, m is zero. If ``before`` is positive, m is one of the numbers 1, ...,
           ``before``.

@@ -115,18 +115,19 @@ class ExponentialsSeries:
         return way[::-1]
 
     def _word(self, word: Forest) -> list[Element]:
-        """Return the coefficients of ``word``, one for each partial product P_0, P_1, ... (``self._places``).
-        A partial product consists of the first n exponentials of a stage or of the update, with n >= 0."""
+        """A partial product consists of the first n exponentials of a stage or of the update, with n >= 0.
+        Let P_0, P_1, ... be all partial products. Return a list whose entry p is the coefficient of ``word``
+        in P_p."""
         values = self._words.get(word)
         if values is None:
             values = self._words[word] = self._along(word, self._places)
         return values
 
     def _along(self, word: Forest, places: Sequence[tuple[int, int, int]]) -> list[Element]:
-        """Return a list of coefficients of a non-empty word, with one entry for each partial product P_0,
-        P_1, ... of exponentials. If ``places`` contains a triple (p, q, r), entry p is the coefficient of the
-        word in P_p = exp(X_r) P_q, where X_r is the exponent ``self._rows[r]``. All other entries are
-        zero."""
+        """Return a list with one entry for each partial product P_0, P_1, ... of exponentials. A triple
+        (p, q, r) in ``places`` means that P_p = exp(X_r) P_q, where X_r is the exponent ``self._rows[r]``.
+        For each triple, entry p is the coefficient of the non-empty ``word`` in P_p. For products without a
+        triple in ``places``, the coefficient is not computed, and the entry is zero."""
         starts = [place for place, level in enumerate(word) if level == 0]
         whole = len(starts)
         # Remove the last r trees from ``word``. The remaining word has the coefficient ``heads[r - 1][p]`` in

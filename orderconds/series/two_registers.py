@@ -196,9 +196,10 @@ def _applied(word: str, ordered: bool) -> Combination:
 @lru_cache(maxsize=1 << 16)
 def _drift(product: Operator, ordered: bool) -> Combination:
     """Apply the operator D (drift) to ``product``, a product of derivatives along vector fields
-    (:data:`Operator`). D is the derivative along the vector field y' = k y. By the product rule, the result
-    is a sum. In the first term of this sum, D is a new leftmost factor of ``product``. In each other term, D
-    is applied to one factor of ``product``."""
+    (:data:`Operator`). D is the derivative along the vector field y' = k y. Each factor of ``product`` is the
+    derivative along a vector field y' = g(y) y. By the product rule, the result is a sum. In the first term,
+    all functions g are treated as constants, and D becomes a new leftmost factor. In each other term, D is
+    applied to the function g of one factor."""
     result = Counter({_arranged((None, *product), ordered): 1})
     result.update(_within(product, _drift, ordered))
     return dict(result)
@@ -207,8 +208,9 @@ def _drift(product: Operator, ordered: bool) -> Combination:
 @lru_cache(maxsize=1 << 16)
 def _kick(product: Operator, ordered: bool) -> Combination:
     """Apply the operator K (kick) to ``product``, a product of derivatives along vector fields
-    (:data:`Operator`). K is the derivative along the vector field k' = f(y). By the product rule, the result
-    is a sum. In each term of this sum, one k in ``product`` is replaced by f(y)."""
+    (:data:`Operator`). K is the derivative along the vector field k' = f(y). Each None in ``product``, also
+    inside a factor, denotes the derivative along the vector field y' = k y. By the product rule, the result
+    is a sum with one term for each None. In this term, f(y) replaces k, and () replaces None."""
     result: Counter[Operator] = Counter()
     for place, factor in enumerate(product):
         if factor is None:

@@ -14,8 +14,9 @@ Hence the sum of b_i (c_i - m_i)^2 over i is 1/3 - 2/3 + 1/3 = 0. The sum of b_i
 zero, too. If the weights are positive, the three abscissae are equal.
 
 Let a_ij be the coefficient with which stage j enters stage i, and let A be the matrix of these coefficients.
-If the three abscissae are equal, A satisfies the equations of a transportation problem: sum_j a_ij = m_i for
-each row i, and sum_i b_i a_ij = b_j (1 - m_j) for each column j.
+Then c_i = sum_j a_ij and 1 - chat_j = (1/b_j) sum_i b_i a_ij. If the three abscissae are equal, A therefore
+satisfies the equations of a transportation problem: sum_j a_ij = m_i for each row i, and
+sum_i b_i a_ij = b_j (1 - m_j) for each column j.
 """
 
 from __future__ import annotations
@@ -146,9 +147,9 @@ def symmetric_transport(
     - ``middle`` contains the row (x_i1, ..., x_is) for i = r + 1. If s is even, ``middle`` is empty.
 
     With the formulas, sum_j a_ij = m_i for each i, and sum_i b_i a_ij = b_j (1 - m_j) for each j, where b_i
-    are the weights. There are formulas for the last column of ``own``, for the first r entries of the last
-    row of ``own``, and for auxiliary numbers C1, ..., Cr. The other entries of ``own`` remain free. The
-    formulas contain the numbers m_i, b_i and y_J, where y_J is the sum of all entries in row J of ``update``.
+    are the weights. There are formulas for x_1s, ..., x_rs, for x_r1, ..., x_rr, and for the numbers
+    C1, ..., Cr in the formulas for x_rj. The other entries of ``own`` remain free. The formulas contain the
+    numbers m_i, b_i and y_J, where y_J is the sum of all entries in row J of ``update``.
 
     >>> last = symmetric_transport([["x11", "x12"]], [1], [["p", "q"], ["q", "p"]], [])
     >>> last["x12"], last["x11"]

@@ -124,9 +124,8 @@ def infeasible(problem: Problem) -> Infeasible | None:
     try:
         values = problem.residuals(ring.generators, cast("RootedRing", ring), _conditions(problem))
         nonzero = _nonzero(problem, ring)
-        # A proof is valid only for methods of the ansatz. A mistake in the formulas of the ansatz could
-        # exclude some symplectic methods. To find such a mistake, all methods of the ansatz are tested:
-        # they must be symplectic.
+        # The formulas of the ansatz must make every method symplectic. If some methods are not symplectic,
+        # the formulas are wrong, and a proof with these formulas would not be valid.
         if problem.family.symplectic and not _is_symplectic(problem, ring):
             return None
     except (

@@ -190,7 +190,8 @@ def spell(form: Affine) -> str:
 
 
 def divisor(text: str) -> str:
-    """Return ``text`` in a form that can follow ``/``. A name and an integer need no parentheses.
+    """Return ``text`` in a form that can follow ``/``. A name or a nonnegative integer gets no
+    parentheses, and all other texts get parentheses.
 
     >>> divisor("b1"), divisor("2"), divisor("2/3"), divisor("-2")
     ('b1', '2', '(2/3)', '(-2)')

@@ -16,15 +16,16 @@ from orderconds.solve.spec import Spec, refuse
 from orderconds.solve.tableau_ansatz import tableau_structures
 
 MIRRORED = (
-    "Y_1, ..., Y_m are the exponents of the update, and X_i1, X_i2, ... are the other exponents of stage i; "
+    "Y_1, ..., Y_m are the exponents of the update; "
+    "stage i has the exponents Y_1, ..., Y_(k_i), X_i1, X_i2, ..., in this order; "
     "bar X denotes the exponent X with its coefficients in reverse order; Y_I = bar Y_J if I + J = m + 1; "
     "X_ir = -bar X_jr if i + j = s + 1, where s is the number of stages; if m and s are odd, the middle "
     "stage i = (s+1)/2 has the additional exponent (1/2) Y_((m+1)/2) directly before X_i1"
 )
 """The assumptions about the exponents of symmetric methods (:mod:`orderconds.solve.paths`).
 
-The text follows a statement of :func:`_numbers_of_exponentials`: stage i begins with the first k_i
-exponentials of the update.
+The function :func:`_numbers_of_exponentials` writes the definition of k_i before this text: stage i begins
+with the first k_i exponentials of the update.
 """
 
 
@@ -93,19 +94,19 @@ def _numbers_of_exponentials(stages: Sequence[Path], update: Path, symmetric: bo
 
     >>> _numbers_of_exponentials(*full_paths(Spec(stages=2, explicit=True))[:2], symmetric=False)
     'the update is y0 multiplied by at most 2 exponentials, and stage i is y0 multiplied by at most n_i \
-exponentials, with n = 0, 2'
+exponentials, with n = (0, 2)'
     """
     counts = ", ".join(str(len(path)) for path in stages)
     shared = [sum(x == y for x, y in zip(path, update, strict=False)) for path in stages]
     numbers = (
         f"the update is y0 multiplied by at most {len(update)} exponentials, and stage i is y0 multiplied by "
-        f"at most n_i exponentials, with n = {counts}"
+        f"at most n_i exponentials, with n = ({counts})"
     )
     if not symmetric:
         return numbers
     begins = ", ".join(map(str, shared))
     return (
-        f"{numbers}; stage i begins with the first k_i exponentials of the update, k = {begins}; {MIRRORED}"
+        f"{numbers}; stage i begins with the first k_i exponentials of the update, k = ({begins}); {MIRRORED}"
     )
 
 

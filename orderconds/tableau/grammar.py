@@ -51,9 +51,9 @@ class Constant(Struct, frozen=True, cache_hash=True):
 
     @property
     def is_double(self) -> bool:
-        """True if the constant is a double. The radius ``unit`` shows the kind of the constant: 0 for an
-        exact number, 1/10^n for a rounded decimal with n decimal places, and a multiple of 2^-53 max(1, |x|)
-        for a double x (:func:`orderconds.tableau.doubles.radius`)."""
+        """True if the constant is a double. An exact number has ``unit`` = 0. A rounded decimal with n
+        decimal places has ``unit`` = 1/10^n. Only doubles have other values of ``unit``
+        (:func:`orderconds.tableau.doubles.radius`)."""
         p, q = self.unit.as_integer_ratio()
         return p > 1 or (p == 1 and q != 10 ** (len(str(q)) - 1))
 

@@ -78,8 +78,8 @@ class AdjointComposition:
         """Return the composition as a Runge-Kutta tableau. The basic method Phi becomes the explicit Euler
         method, and the adjoint Phi* becomes the implicit Euler method.
 
-        The coefficients are b_i = beta_i + alpha_i, a_ii = beta_i, and a_ij = b_j for j < i (HLW, Section
-        II.4).
+        Let beta_i h be the step sizes of Phi*, and let alpha_i h be the step sizes of Phi. Then the
+        coefficients are b_i = beta_i + alpha_i, a_ii = beta_i, and a_ij = b_j for j < i (HLW, Section II.4).
         """
         b = tuple(y + x for x, y in zip(self.alpha, self.beta, strict=True))
         A = tuple((*b[:i], y, *((ring.zero,) * (self.s - i - 1))) for i, y in enumerate(self.beta))

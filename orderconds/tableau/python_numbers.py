@@ -22,9 +22,8 @@ EXPECTED = (
 
 
 SMALL = 1024
-"""The value of a NumPy float of 16 or 32 bits is a fraction in lowest terms. If the denominator of the
-fraction is larger than SMALL, the float becomes a rounded decimal. Otherwise, the float is converted like a
-double."""
+"""A NumPy float of 16 or 32 bits becomes a rounded decimal if its denominator, as a fraction in lowest terms,
+is larger than SMALL. If the denominator is at most SMALL, the float is converted like a double."""
 
 
 class _Listed(Protocol):

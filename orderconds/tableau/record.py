@@ -39,8 +39,8 @@ from orderconds.tableau.write import as_data
 
 @dataclass(frozen=True, repr=False)
 class Tableau:
-    """A named method with coefficients in ``ring``. ``family`` is the name of the format of its tableau file,
-    for example ``rk`` or ``cf``.
+    """A named method with coefficients in ``ring``. ``family`` names the format of the coefficients in
+    a tableau file, for example ``rk`` or ``cf``. The coefficients can also belong to other families.
 
     >>> heun = Tableau.rk([[0, 0], [1, 0]], ["1/2", "1/2"], name="heun")
     >>> heun, heun.c, heun.orders["rk"]

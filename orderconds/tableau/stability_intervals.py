@@ -48,9 +48,10 @@ FIRST_TRY = 64
 of the library need at most 18 subintervals. A multiple zero would need infinitely many."""
 
 MOST = 5000
-"""The limit on the number of subintervals in a second search, which follows if the first search fails and the
-signs of all coefficients are known. The second search uses a polynomial with the same sign changes, but with
-simple zeros only. The limit bounds the work for zeros that are extremely close to each other."""
+"""The limit on the number of subintervals in the second search. If the first search fails, the second search
+follows, but only for a polynomial whose coefficients all have known signs. The second search uses another
+polynomial with the same sign changes, but with simple zeros only. The limit bounds the work for zeros that
+are extremely close to each other."""
 
 ACCURACY = 60
 """A zero is enclosed in an interval of relative length 2^-ACCURACY, less than the rounding of a double."""
@@ -74,8 +75,8 @@ class Intervals(Struct, frozen=True):
 
 
 class Vanishing(Struct, frozen=True):
-    """The coefficients of Q(-x)^2 - P(-x)^2 and of |Q(iy)|^2 - |P(iy)|^2 that are known to be zero. Here P/Q
-    is the stability function.
+    """The known zero coefficients of two polynomials. If P/Q is the stability function, the two polynomials
+    are Q(-x)^2 - P(-x)^2 and |Q(iy)|^2 - |P(iy)|^2.
 
     ``real[k]`` is true if the coefficient of x^k is zero, and ``imaginary[k]`` is true if the coefficient of
     y^(2k) is zero. False means that nothing is known.
@@ -95,8 +96,8 @@ def stability_intervals(
     determine whether the coefficient is zero. The parameters ``order`` and ``vanishing`` state that some of
     the coefficients of the two polynomials are zero:
 
-    - ``order`` is a proved order of the method. From R(z) = e^z + O(z^(order + 1)) follows
-      |R(iy)|^2 - 1 = O(y^(order + 1)).
+    - ``order`` is a proved order of the method. The stability function satisfies
+      R(z) = e^z + O(z^(order + 1)). Therefore |R(iy)|^2 - 1 = O(y^(order + 1)).
     - ``vanishing`` states which coefficients of the two polynomials are zero. To determine ``vanishing``,
       replace the rounded decimals in the tableau by random rational numbers, and call
       :func:`vanishing_coefficients`.
@@ -170,8 +171,9 @@ def _length(E: Coefficients, ring: Ring, convert: Callable[[float], float]) -> f
 def _first_descent(E: Coefficients, ring: SignedRing) -> tuple[Fraction, Fraction] | None:
     """Return an enclosure of the smallest t >= 0 such that E is negative immediately to the right of t.
 
-    E is a polynomial in t. The result is None if there is no such point. Raises :class:`Undecided` for balls
-    that are too wide.
+    E is a polynomial in t, and its coefficients can be balls (intervals). The result is None if there is no
+    such point. Raises :class:`Undecided` if the balls are too wide, or if the search needs too many
+    subintervals.
     """
     signs = [ring.sign(x) for x in E]
     support = [k for k, sign in enumerate(signs) if sign != 0]
@@ -273,7 +275,8 @@ def _refined(F: Polynomial, ring: SignedRing, a: Fraction, b: Fraction | None) -
     while b is None and sign(high) != -1:
         low, high = (high, 2 * high) if sign(high) == 1 else (low, 2 * high)
     while low == 0:
-        # Halve ``high`` until F is positive at ``high / 2``. Then ``high / 2`` is the lower end.
+        # The sign change is between 0 and ``high``. Halve ``high`` until F(high / 2) is positive. Then the
+        # sign change is between ``high / 2`` and ``high``.
         low, high = (high / 2, high) if (side := sign(high / 2)) == 1 else (low, high / 2)
         if side is None:
             raise Undecided

@@ -37,8 +37,8 @@ def orthogonal(generators: Sequence[Series], letters: Sequence[int], length: int
     """
     functionals: list[Functional] = []
     for content, words in sorted(_by_content(letters, length).items()):
-        # A functional is a tuple of pairs (word, value). For the first pair, ``_kernel`` prefers words at the
-        # end of ``columns``. The Lyndon words are at the end, because Lyndon words are wanted in first pairs.
+        # The first word of each functional should be a Lyndon word if possible. ``_kernel`` takes the first
+        # words from the end of ``columns`` if possible. Therefore the Lyndon words are at the end.
         columns = sorted(words, key=lambda word: (is_lyndon(word), word))
         rows = list(_ideal(generators, letters, length, content))
         functionals += _kernel(rows, columns)

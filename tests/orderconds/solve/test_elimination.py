@@ -124,7 +124,7 @@ def test_a_proof_for_symplectic_methods_with_options_assumes_nonzero_weights() -
             Spec(2, explicit=True),
             "full",
             "the update is y0 multiplied by at most 2 exponentials, "
-            "and stage i is y0 multiplied by at most n_i exponentials, with n = 0, 2",
+            "and stage i is y0 multiplied by at most n_i exponentials, with n = (0, 2)",
         ),
         (
             "cf",
@@ -132,8 +132,8 @@ def test_a_proof_for_symplectic_methods_with_options_assumes_nonzero_weights() -
             Spec(2, symmetric=True, exponentials=1),
             "symmetric",
             "the update is y0 multiplied by at most 1 exponentials, "
-            "and stage i is y0 multiplied by at most n_i exponentials, with n = 2, 1; "
-            f"stage i begins with the first k_i exponentials of the update, k = 1, 0; {MIRRORED}",
+            "and stage i is y0 multiplied by at most n_i exponentials, with n = (2, 1); "
+            f"stage i begins with the first k_i exponentials of the update, k = (1, 0); {MIRRORED}",
         ),
     ],
 )
