@@ -363,8 +363,8 @@ def _difference(memory, order, first, sign, sum):
     given order. Let u_0 be the latest stored solution, and let u_k be the
     solution k steps earlier. If first = 0 and sign = 1, compute sum = d_0 u_0 +
     d_1 u_1 + ... + d_order u_order, the backward difference. If first = 1 and
-    sign = -1, compute sum = -(d_1 u_0 + d_2 u_1 + ... + d_order u_(order-1)), the
-    extrapolated solution of the next step.
+    sign = -1, extrapolate to the next step: compute sum from d_0 sum + d_1 u_0 +
+    ... + d_order u_(order-1) = 0, where d_0 = 1.
     """
     sum_0 = 0.0
     sum_1 = 0.0
