@@ -52,11 +52,11 @@ def ad_polynomial(d: Domain, word: Sequence[Factor], z: S, *, signed: bool = Fal
 def _exponentials(
     d: Domain, terms: Sequence[tuple[Fraction, Fraction]], j: int, z: S, signed: bool
 ) -> tuple[S, S]:
-    """Return numbers b and c such that a series in t = ad_x is equal to b t + c t^2.
+    """Return numbers b and c such that F(t) = b t + c t^2 for t = ad_x.
 
-    The series consists of the terms with t, t^2, t^3, ... in the sum of r exp(k t)/t^j over the pairs (k, r)
-    in ``terms``. Because of t^3 = -z t, the powers t^3, t^4, ... are multiples of t or t^2. The number j is 0
-    or 1. If z can be negative, ``signed`` is true.
+    If ``terms`` is one pair (k, r), F(t) is the series of r exp(k t)/t^j without the terms with t^-1 and t^0.
+    If ``terms`` contains several pairs, the series of the pairs are added. Because of t^3 = -z t, the powers
+    t^3, t^4, ... are multiples of t or t^2. The number j is 0 or 1. If z can be negative, ``signed`` is true.
     """
     sums = []
     name = "signed_stumpff" if signed else "stumpff"

@@ -291,7 +291,9 @@ class MatrixColumns(Representation):
         return n + 1, (*rows, *(d.rational(0),) * (n + 1))
 
     def of_matrices(self, group: LieGroup) -> MatrixRepresentation | None:
-        """Return ``group``, the group whose matrices multiply the vectors of this representation."""
+        """Return ``group`` if it has matrices (:class:`MatrixRepresentation`). Otherwise raise
+        :class:`SceneError`.
+        """
         return self._matrices(group)
 
 

@@ -92,12 +92,12 @@ def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int,
             # Exponents are added in a product, and multiplied in a power of a power.
             exponent = sum(n for _, n in inside)
             ranks[node.id] = (inside[0][0], exponent * (node.payload or 1))
-    # ``read`` contains the pair (node number of y, n) of each node c y^n that occurs in ``roots`` outside of
-    # other powers of y. Here y = 1/sqrt x, and c is a number. For example, if the only root is z y^3 with a
-    # symbol z, ``read`` contains the pair of y^3, but not the pair of y.
+    # ``ranks`` contains the pair (node number of y, n) for each node c y^n, where y = 1/sqrt x and c is a
+    # number. ``read`` contains this pair if c y^n is a root, or if c y^n is an argument of a node that is not
+    # a power of y. For example, the node z y^3 with a symbol z has the argument y^3.
     read = {ranks[x.id] for x, by in used if x.id in ranks and (by is None or by.id not in ranks)}
-    # ``bases`` contains the node number of each y = 1/sqrt x for which ``read`` contains a pair with n = 1 or
-    # with an even n. The powers of these y are not rewritten as quotients.
+    # A pair (base, n) in ``read`` belongs to the power y^n, and ``base`` is the node number of y. If n is 1
+    # or even, no power of this y is rewritten as a quotient.
     bases = {base for base, n in read if n == 1 or n % 2 == 0}
     return {key: pair for key, pair in ranks.items() if pair[0] not in bases}
 

@@ -343,9 +343,9 @@ class SeriesDomain:
         return self.ring.rational(p, q)
 
     def call(self, function: str, *args: Scalar) -> Scalar:
-        """Apply ``function`` to the power series ``args``. ArithmeticError is raised if the result cannot be
-        computed exactly, with one exception: if ``function`` is "quotient" and the divisor begins with the
-        power h^v, the last v coefficients of the result can be wrong, because of the truncated powers of h.
+        """Apply ``function`` to the power series ``args``. If the result cannot be computed exactly,
+        ArithmeticError is raised. Only a quotient can be inexact without an error: if the divisor begins with
+        the power h^v, the last v coefficients of the quotient can be wrong, because ``args`` are truncated.
         """
         z = args[0]
         if function == "quotient":

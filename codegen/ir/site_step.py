@@ -70,10 +70,10 @@ class Sweep:
       belongs to the load ``read_outside[k]``.
     - ``axis`` is :data:`OWN` if the sweep visits single sites. If the sweep visits pairs of neighbouring
       sites, ``axis`` is the index of the lattice axis along which the two sites are neighbours. In a sweep
-      over pairs, a load with ``neighbour`` = :data:`OWN` belongs to the first site of the pair, and a load
-      with ``neighbour`` = 0 belongs to the second site. Here 0 is not an index in :attr:`SiteStep.offsets`.
-      The first half of ``stores`` contains the rows for the first site. The second half contains the rows
-      for the second site.
+      over single sites, the attribute ``neighbour`` of a load is :data:`OWN` or an index in
+      :attr:`SiteStep.offsets`. In a sweep over pairs, ``neighbour`` is :data:`OWN` for the first site of the
+      pair, and 0 for the second site. The first half of ``stores`` contains the rows for the first site. The
+      second half contains the rows for the second site.
     - ``unknowns`` are the unknowns u of the equations u = g(u). The first outputs of ``kernel`` are the
       values g(u). In Newton's method, the sweep subtracts u from these outputs, and stores the differences
       g(u) - u. In fixed-point iteration, the sweep stores the outputs unchanged.
