@@ -99,9 +99,9 @@ class Frames:
 
         If the two kernels are not needed, the result is None.
         """
-        # The two kernels are needed only if the program uses the body frame, the emitted code uses the space
-        # frame (``body_group`` is None), and ``whole`` is false. In all other cases, each step converts the
-        # momentum, or no conversion is needed, because both frames are the same (``_alike`` is true).
+        # If the program and the emitted code use the same frame (``_alike``), the momentum is not converted.
+        # If their frames differ, each step converts the momentum in two cases: ``whole`` is true, or the
+        # emitted code uses the body frame (``body_group`` is not None).
         if self._alike or self.whole or self.scene.body_group is not None:
             return None
         state = tuple(domain.space.sym(s) for s in self.scene.symbols)

@@ -138,8 +138,8 @@ def _joined(
             # The index ``k`` counts from the end of ``kept``, and ``j`` counts from the beginning.
             j = len(kept) - 1 - k
             timely = not head.time or (head.time[0].name == "t" and tail.time == last)
-            # For i = j, ``head`` and ``tail`` are the same flow. For equal parts, i > j does not occur,
-            # because the first ``begin`` flows belong to different parts.
+            # A pair consists of two flows of the step: the earlier flow ``head`` with the index i, and the
+            # later flow ``tail`` with the index j. For i = j, there is only one flow, and nothing is joined.
             if head.part == tail.part and i < j and timely:
                 pairs.append((i, j, tail.duration.value, head.duration.value + tail.duration.value))
     # All joined flows read their duration from the variable LEAD, so only pairs with equal durations are

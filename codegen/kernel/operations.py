@@ -157,10 +157,10 @@ def costs(kernel: Kernel) -> list[str]:
     if kernel.carried is not None:
         turned = (kernel.carried.inward, kernel.carried.outward)
         there, back = (operations(arrange(each_kernel))[STEP] for each_kernel in turned)
-        # A run changes the caller's space momentum m to m + (m_1 - m_0), because the errors of conversions
-        # nearly cancel in m_1 - m_0. At the start, the run converts m to the body momentum, and then converts
+        # At the start, a run converts the caller's space momentum m to the body momentum, and then converts
         # the body momentum to the space momentum m_0. At the end, the run converts the new body momentum to
-        # the space momentum m_1. The sum m + (m_1 - m_0) needs two additions for each component.
+        # the space momentum m_1. The caller receives m + (m_1 - m_0) instead of m_1, because the errors of
+        # m_0 and m_1 nearly cancel. The sum m + (m_1 - m_0) needs two additions for each component.
         added = {"add": 2 * len(turned[1].outputs)}
         # The first text counts the operations at the start of a run, and the second text those at the end.
         texts = [sentences({STEP: n})[0] for n in (_plus(there, back), _plus(back, added))]

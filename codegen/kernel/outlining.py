@@ -86,9 +86,9 @@ class Outline:
             if not chosen:
                 return None
             rewritten_roots, shapes = self._called(roots, chosen)
-            # A call reads all inputs of a tree. If the tree uses an input x only in x - x, and x - x was
-            # simplified to 0, then x can be missing in ``roots``, and emitted code does not compute x.
-            # Therefore a tree with a missing input is not replaced by a call.
+            # A call reads all inputs of a tree. Suppose that the program uses an input x only in x - x. Then
+            # ``roots`` contains 0 instead of x - x, and x is missing in ``roots``, so emitted code does not
+            # compute x. Therefore a tree with a missing input is not replaced by a call.
             added = _symbols(rewritten_roots) - _symbols(roots)
             if added:
                 called = [tree for alike in chosen.values() for tree in alike]

@@ -191,9 +191,9 @@ class Execution:
         """
         loaded = [f"{name}_{offset_text(self.sites.offsets[offset])}" for name in self._names(var)]
         pairs = zip(loaded, ghosts, strict=False)
-        # ``loaded`` contains one name for each component of ``var``. The dictionary ``self.ghosts`` can store
-        # only one value for each name. If the value that is stored for a name in ``loaded`` differs from the
-        # value in ``ghosts``, new names are used for all components.
+        # ``loaded`` contains one name for each component of ``var``. The dictionary ``self.ghosts``
+        # may already contain one of these names, with another value than in the argument ``ghosts``. Then all
+        # components get new names, because a dictionary has only one value for each name.
         if var not in self.given or any(self.ghosts.get(s, x) is not x for s, x in pairs):
             loaded = [self._fresh(name) for name in loaded]
         self.loads |= {s: Load(s, row, offset) for s, row in zip(loaded, self.rows[var], strict=True)}

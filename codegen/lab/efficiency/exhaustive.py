@@ -55,10 +55,10 @@ class Exhausted:
     - ``copies``: the number of recipes that were not timed, because their code equals that of a timed recipe.
     - ``excluded``: the number of recipes that were not timed, because their predicted CPU times were too
       long.
-    - ``nearest``: the result of a test. A sample of the excluded recipes is timed for each required error,
-      and each time is divided by the least CPU time that ``orderconds recommend`` or this search had measured
-      before for the same error. ``nearest`` is the least of these quotients. If ``nearest`` is below 1, a
-      faster recipe was excluded.
+    - ``nearest``: the least quotient t/b in a test with a sample of the excluded recipes. Here t is the CPU
+      time that a recipe of the sample needs for a required error. The number b is the least CPU time that was
+      measured earlier for this error, by ``orderconds recommend`` or by this search. If ``nearest`` is below
+      1, a faster recipe was excluded.
     - ``complete``: False if the time limit ended the search.
     """
 

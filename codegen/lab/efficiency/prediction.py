@@ -84,8 +84,8 @@ FAR = 10.0
 """Methods of order p are excluded if even methods of the orders p + 1 and p + 2 are too inaccurate.
 
 Let e be the least error that is predicted for the methods of these higher orders, with a given CPU time. With
-the same CPU time, a method of order p is assumed to be at most FAR times as accurate, so the error is at
-least e/FAR. Therefore methods of order p are excluded if e/FAR exceeds the required error.
+the same CPU time, the error of a method of order p is assumed to be at least e/FAR. Therefore methods of
+order p are excluded if e/FAR exceeds the required error.
 """
 
 CALL = 8.0
@@ -187,13 +187,12 @@ class Bar:
 
         - ``step_seconds``, the predicted CPU time of one step, exceeds ``self.seconds``.
         - The method is implicit, and ``self.explicit`` is True.
-        - The expected error exceeds ``self.error``. A method of order p is assumed to be at most :data:`FAR`
-          times as accurate as the methods of the orders p + 1 and p + 2, so the expected error is e/FAR. Here
-          e is the smallest predicted error of these methods of higher order in a run of ``self.seconds``
-          seconds of CPU time. The number e comes from the triple (``family``, ``explicit``, e) in
-          ``self.least``. If this triple is missing, the triple
-          ('', ``explicit``, e) for all families is used. If that triple is missing, too, this case does not
-          apply.
+        - The number e/:data:`FAR` exceeds ``self.error``. Here e is the smallest predicted error of the
+          methods of the orders p + 1 and p + 2 in a run of ``self.seconds`` seconds of CPU time. In a run of
+          the same CPU time, the error of a method of order p is assumed to be at least e/FAR. The number e
+          comes from the triple (``family``, ``explicit``, e) in ``self.least``. If this triple is missing,
+          the triple ('', ``explicit``, e) for all families is used. If that triple is missing, too, this case
+          does not apply.
         """
         if step_seconds > self.seconds or (self.explicit and not explicit):
             return True
