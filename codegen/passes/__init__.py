@@ -172,9 +172,9 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         Pass("shared values", SHARED, value_numbering.run),
         Pass("factored maps", FACTORED, factor_linear.run),
         Pass("maps of shared sums", FACTORED, shared_sums.run),
-        # This pass replaces some products q exp(x) by operations that do not read exp(x). The pass "functions
-        # of ad" can then replace more operations Ad_{exp x}, because it may leave Ad_{exp x} unchanged if
-        # another operation reads exp(x).
+        # This pass replaces some products q exp(x) by operations that read only q and x. If Ad_{exp x} is
+        # then the only operation that reads exp(x), the pass "functions of ad" replaces Ad_{exp x} by a
+        # function of ad_x, and exp(x) is not computed.
         Pass("rows of products", "one operation computes q exp(x)", lambda p: functions.rows(p, scene)),
         Pass("functions of ad", one_ad, lambda p: functions.run(p, scene)),
         # This pass uses operations that the pass "functions of ad" creates.

@@ -188,8 +188,8 @@ def _residual(block: Solve, route: Path, build: Builder) -> Var:
     replaced, computed = _values(build, route)
     given = route.base
     if _function_of_one(block, route):
-        # In this case, m and n are values of the momentum P of the stage, and not of ``route.base``. The map
-        # in ``route.inward`` computes P from ``route.base``, so the inverse of this map is not needed for n.
+        # The residual compares two values of the momentum P of the stage. A comparison of two values of
+        # ``route.base`` would need one more map: the inverse of the map in ``route.inward``.
         given = route.velocity.args[1]
     elif route.inward and route.inward[0].terms:
         given = route.inward[0].targets[0]

@@ -262,8 +262,8 @@ class ChainSolver:
 
         The border contains the coefficients of the last site's unknowns in the equations of all other sites.
         """
-        # The unknowns of the last site occur only in the equations of site 0 and of site ``_LAST`` (the last
-        # but one). Therefore the coefficients of these unknowns are zero in the equations of all other sites.
+        # The neighbours of the last site ``_INNER`` are site 0 and site ``_LAST`` = ``_INNER`` - 1. Only the
+        # equations of these neighbours have nonzero coefficients in the border.
         n, ends = self.n, []
         for site, block in ((whole(0), LEFT), (_LAST, RIGHT)):
             there = self.border(site, _I, _J)
@@ -285,8 +285,8 @@ class ChainSolver:
         n = self.n
         first = row_of(self.step, _J * n + self.newton.border)
         solved = For(_J, whole(n), (Call(self.name("substitute"), (_INNER, SITES, self.work, first)),))
-        # The neighbours of the last site ``_INNER`` are site 0, because the chain is periodic, and site
-        # ``_LAST`` (the last but one).
+        # In the periodic chain 0, ..., ``_INNER``, the right neighbour of site ``_INNER`` is site 0. The left
+        # neighbour of site ``_INNER`` is site ``_LAST`` = ``_INNER`` - 1.
         right = self.cell(_INNER, RIGHT, _I, _K) * self.border(whole(0), _K, _J)
         left = self.cell(_INNER, LEFT, _I, _K) * self.border(_LAST, _K, _J)
         pivot = (

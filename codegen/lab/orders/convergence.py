@@ -42,8 +42,8 @@ SPREAD = CLEAR * 2.0**-52
 """Errors of the coefficients of a method up to SPREAD are negligible.
 
 A run with doubles has a rounding error r of about 2^-52 or more. The run is used to measure the order only if
-its error is larger than CLEAR r. Coefficient errors up to SPREAD change the final state of the run by about
-SPREAD = CLEAR 2^-52 or less, so by at most about CLEAR r.
+its error is larger than CLEAR r. Coefficients with an error e change the final state of the run by about e.
+If e is at most SPREAD = CLEAR 2^-52, this change is smaller than the error of a run that is used.
 """
 
 

@@ -43,8 +43,8 @@ from codegen.snippets.graph import LIBRARY
 MANY = 20
 """If more than ``MANY`` short statements follow each other, several statements are printed on each line."""
 
-ONE_TEST = "Finite terms x can have an infinite sum. But x - x is 0 only for finite x."
-"""The comment before a test that all x are finite. If x is not finite, x - x is NaN."""
+ONE_TEST = "If the sum of all x overflows, test x - x (0 for finite x, else NaN)."
+"""The comment before a test that all numbers x are finite. The test first checks the sum of all x."""
 
 
 class FunctionPrinter:
