@@ -111,8 +111,9 @@ def of_step(kernel: Kernel, work: Work) -> Amounts:
 
 def of_sweep(loop: Loop, work: Work) -> Amounts:
     """Return the amounts of work in one sweep."""
-    # In Newton's method for equations u = g(u), each sweep multiplies an inverse matrix by g(u) - u: the
-    # correction. For equations r(u) = 0 (``residuals`` is true), no correction is counted.
+    # A correction is the product of an inverse matrix and the vector g(u) - u. Each sweep of Newton's method
+    # for equations u = g(u) computes one correction. For equations r(u) = 0 (``residuals`` is true), no
+    # correction is counted.
     corrected = loop.newton is not None and not loop.newton.residuals
     return of_operations(work[loop.label]) + Amounts(swept=len(loop.unknowns), corrections=int(corrected))
 

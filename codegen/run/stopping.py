@@ -218,8 +218,8 @@ class Stopping:
                 (Assign(first, first + CHANGE),),
             ),
             # Let q be the rate, and let d be ``change``. If q is constant, the sum of all later changes is
-            # q d/(1 - q). For q < 1/2, the first test below omits the divisor 1 - q, because the sum is then
-            # between q d and 2 q d.
+            # q d/(1 - q). If ``contracts`` is true (q < 1/2), the sum is less than 2 q d. A factor of 2 does
+            # not matter for the stopping test, so the test omits the divisor 1 - q.
             Assign(flag("contracts"), rate < 0.5),
             Assign(
                 flag("converged"),

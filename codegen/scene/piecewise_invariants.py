@@ -101,9 +101,9 @@ class _Check:
     def combinations(self, nodes: Sequence[Expr]) -> Iterator[Sides]:
         """A combination contains one case of each operation in ``nodes``. Yield all possible combinations.
 
-        For example, abs(x) has the cases x and -x. The sign of x determines the cases of abs(x),
-        choose(x, a, b) and abs(-x). Therefore abs(x) and choose(x, a, b) have the same case, and abs(-x) has
-        the other case. Tables with the same argument and the same knots have the same case.
+        For example, abs(x), abs(-x) and choose(x, a, b) have only two combinations of cases: (x, x, a) for
+        x > 0, and (-x, -x, b) for x <= 0. Two tables with the same argument and the same knots always use
+        the polynomials of the same interval.
         """
         keys = [_key(node) for node in nodes]
         counts: dict[object, int] = {
@@ -129,8 +129,9 @@ class _Check:
             return
         formulas = [f for f in _formulas(x) if f.op != "const"]
         if not formulas:
-            # ``x`` is piecewise constant, for example choose(y, 1, -1), and changes only where a selection in
-            # ``x`` switches. There, ``root`` is checked when ``run`` calls this method for that selection.
+            # ``x`` is piecewise constant, so ``node`` switches only where a selection in ``x`` switches. For
+            # example, abs(x) with x = choose(y, 1, -1) switches only at y = 0. When ``run`` calls this method
+            # for the selection choose(y, 1, -1), the continuity of ``root`` at y = 0 is checked.
             return
         compared = False
         usual = [v[0] for point in self.orbit.points if (v := self.orbit.values((root,), point)) is not None]
@@ -138,8 +139,9 @@ class _Check:
             sides = self.beside(formula, point)
             values = [self.orbit.values((root, x), place) for place in sides]
             pairs = [v for v in values if v is not None]
-            # If ``x`` has the same sign at both points, ``node``, for example abs(x), does not switch between
-            # the points. For example, ``x`` = choose(y, f, g) equals g at a zero of f with y <= 0.
+            # Between the two points, ``formula`` changes its sign, but ``x`` may keep its sign. For example,
+            # x = choose(y, f, g) equals g for y <= 0, even if f changes its sign. If ``x`` keeps its sign,
+            # ``node`` does not switch between the points, so ``root`` is not compared at the points.
             if len(pairs) < 2 or (formula is not x and (pairs[0][1].value > 0) == (pairs[1][1].value > 0)):
                 continue
             compared = True
