@@ -55,11 +55,11 @@ def limit(precision: Precision = DOUBLE, chain: int = 1) -> float:
 
         a^chain 8^(chain-1) 2^-bits,   with bits = ``precision.bits``.
 
-    Let m be the largest integer for which a chain of rotations by the angle 2^m has an error of at most
-    2^-LEFT (:data:`LEFT`). If m > floor(2*bits/5), m is reduced to floor(2*bits/5), because one
-    rotation by the angle 2^m gives a momentum an error of about 4^m 2^-bits. With the reduced m, this error
-    is at most about 2^(-bits/5). If m < floor(bits/6), m is increased to floor(bits/6), because the formula
-    above overestimates the error of long chains. The result is 4^m, the square of the angle 2^m.
+    Let m be the largest integer for which this bound with a = 2^m is at most 2^-LEFT (:data:`LEFT`).
+    A momentum that is computed with one rotation by the angle a has a larger error than the rotation: about
+    a^2 2^-bits. Therefore, if m > floor(2*bits/5), m is reduced to floor(2*bits/5). Then the error of the
+    momentum is at most about 2^(-bits/5). If m < floor(bits/6), m is increased to floor(bits/6), because the
+    bound overestimates the error of long chains. The result is 4^m, the square of the angle 2^m.
 
     >>> [limit(DOUBLE, n) ** 0.5 for n in (1, 2, 3, 4, 9)]
     [2097152.0, 1048576.0, 4096.0, 256.0, 256.0]

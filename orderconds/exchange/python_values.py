@@ -57,7 +57,8 @@ class Array:
     """If two arrays have equal values of ``memory``, a change of one array may change the other array."""
 
     def parts(self) -> set[int]:
-        """Return the numbers :attr:`memory` of this array and of all nested arrays, for example its rows."""
+        """Return a set of integers: the attribute ``memory`` of this array, and the attribute ``memory`` of
+        each nested array, for example of each row."""
         return {self.memory}.union(*(x.parts() for x in self.items if isinstance(x, Array)))
 
 

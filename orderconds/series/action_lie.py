@@ -216,12 +216,13 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_before(self, before: Word, after: Word, behind: Word) -> list[Varied]:
-        """Let x and z be two additional letters. Replace the velocity xi_i of one stage i by xi_i + x. Let
-        exp(X_j) be the resulting group element of stage j, and let w_ij be the coefficient of the word
-        (``before``, x, ``after``, z, ``behind``) in the series dexpinv_{X_j} z (:meth:`_terms`). The letter z
-        does not occur in X_j.
+        """Return a list with one map (:data:`Varied`) for each stage j. The map takes each stage i to a
+        coefficient w_ij. The coefficient is defined in three steps:
 
-        Return a list with one map (:data:`Varied`) for each stage j. The map for j takes i to w_ij."""
+        1. Add a new letter x to the velocity of stage i.
+        2. With this changed velocity, compute the exponent X_j of the group element exp(X_j) of stage j.
+        3. Let z be another new letter. Then w_ij is the coefficient of the word
+           (``before``, x, ``after``, z, ``behind``) in the series dexpinv_{X_j} z (:meth:`_terms`)."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(before) + 1 + len(after), len(behind)):
             varied = self._varied_power(0, m, before, after)
@@ -231,12 +232,13 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _varied_behind(self, first: Word, before: Word, after: Word) -> list[Varied]:
-        """Let x and z be two additional letters. Replace the velocity xi_i of one stage i by xi_i + x. Let
-        exp(X_j) be the resulting group element of stage j, and let w_ij be the coefficient of the word
-        (``first``, z, ``before``, x, ``after``) in the series dexpinv_{X_j} z (:meth:`_terms`). The letter z
-        does not occur in X_j.
+        """Return a list with one map (:data:`Varied`) for each stage j. The map takes each stage i to a
+        coefficient w_ij. The coefficient is defined in three steps:
 
-        Return a list with one map (:data:`Varied`) for each stage j. The map for j takes i to w_ij."""
+        1. Add a new letter x to the velocity of stage i.
+        2. With this changed velocity, compute the exponent X_j of the group element exp(X_j) of stage j.
+        3. Let z be another new letter. Then w_ij is the coefficient of the word
+           (``first``, z, ``before``, x, ``after``) in the series dexpinv_{X_j} z (:meth:`_terms`)."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(first), len(before) + 1 + len(after)):
             scales = [q * x for x in self._power(0, m, first)] if m else [q] * self.stages

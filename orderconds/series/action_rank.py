@@ -1,9 +1,10 @@
 """Selection of independent order conditions of variational Lie group methods. Each condition belongs to one
 tree (:mod:`orderconds.series.action`). For many random methods, the left-hand sides of the conditions are
-evaluated modulo a prime. For the exact flow, the right-hand sides replace the left-hand sides.
+evaluated modulo a prime. The right-hand sides are numbers that do not depend on the method.
 
-A condition of order n is dependent if its left-hand side is a polynomial in the left-hand sides of other
-conditions up to order n. This polynomial must be the same for every method **and for the exact flow**.
+A condition L_0 = R_0 of order n is dependent if there are other conditions L_1 = R_1, ..., L_m = R_m up to
+order n, and a polynomial P, such that L_0 = P(L_1, ..., L_m) for every method, **and R_0 = P(R_1, ...,
+R_m)**.
 """
 
 from __future__ import annotations

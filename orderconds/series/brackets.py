@@ -43,9 +43,9 @@ class BracketProgram:
     - ``stages``: the rows of u_1, ..., u_s.
     - ``update``: the row of u.
     - ``least``: a lower bound for the number of brackets in every program that computes the arguments.
-    - ``grades``: integers g_1, ..., g_s. Let p be the order of the method. Then g_j is the largest number g
-      in 1, ..., p such that h (x_1 k_1 + ... + x_(j-1) k_(j-1) + k_j) = O(h^g) for some numbers x_1, ...,
-      x_(j-1).
+    - ``grades``: integers g_1, ..., g_s. Choose the numbers x_1, ..., x_(j-1) to make the order h^g of the
+      combination h (x_1 k_1 + ... + x_(j-1) k_(j-1) + k_j) as high as possible. Then g_j = min(g, p), where
+      p is the order of the method.
 
     >>> from orderconds.ring import QQ
     >>> euler = BracketProgram((), ({},), {("k", 0): QQ.one}, 0, (1,))
@@ -166,9 +166,11 @@ def _limit(algebra: GradedAlgebra, arguments: Sequence[Polynomial], i: int) -> i
 
 
 def _shared(algebra: GradedAlgebra, arguments: Sequence[Polynomial]) -> dict[int, list[Polynomial]]:
-    """Return a map from indices i to lists of polynomials. If a program computes the polynomials of index i
-    first, then ``arguments[i]``, and then ``arguments[i + 1]``, ``arguments[i + 2]``, ..., it may need fewer
-    brackets."""
+    """Return polynomials that a program may compute in addition to ``arguments``, in order to save brackets.
+
+    The result is a map from indices i to lists of polynomials. The list of index i should be computed just
+    before ``arguments[i]``. For each polynomial in this list, a later argument is a linear combination of the
+    polynomial, ``arguments[i]`` and stage values. Therefore, the later argument needs no new brackets."""
     one, shared = algebra.ring.one, dict[int, list[Polynomial]]()
     stages = [algebra.cut(u, algebra.largest - 1) for u in arguments[:-1]]
     for i, argument in enumerate(stages):
@@ -367,8 +369,8 @@ class _Search:
 
         - the row of the element (:class:`BracketProgram`)
         - the element as a polynomial
-        - the right factor of the outer bracket (:class:`_Shape`) as a polynomial, without the inner bracket
-          that is added to this factor; zero if there is no outer bracket
+        - the element y of the outer bracket [q_1 + x, y + C_1] or [q_1 + x, y] (:class:`_Shape`), as a
+          polynomial; zero if there is no outer bracket
         """
         one, size = self.ring.one, len(self.pool)
 
