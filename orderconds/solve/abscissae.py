@@ -147,9 +147,9 @@ def symmetric_transport(
     - ``middle`` contains the row (x_i1, ..., x_is) for i = r + 1. If s is even, ``middle`` is empty.
 
     With the formulas, sum_j a_ij = m_i for each i, and sum_i b_i a_ij = b_j (1 - m_j) for each j, where b_i
-    are the weights. There are formulas for x_1s, ..., x_rs, for x_r1, ..., x_rr, and for the numbers
-    C1, ..., Cr in the formulas for x_rj. The other entries of ``own`` remain free. The formulas contain the
-    numbers m_i, b_i and y_J, where y_J is the sum of all entries in row J of ``update``.
+    are the weights. The formulas determine the last column of ``own``, the first r entries of the last row of
+    ``own``, and auxiliary numbers C1, ..., Cr. The other entries of ``own`` remain free. The formulas contain
+    the numbers m_i, b_i and y_J, where y_J is the sum of all entries in row J of ``update``.
 
     >>> last = symmetric_transport([["x11", "x12"]], [1], [["p", "q"], ["q", "p"]], [])
     >>> last["x12"], last["x11"]

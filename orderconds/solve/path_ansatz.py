@@ -15,18 +15,16 @@ from orderconds.solve.paths import Path, full_paths, symmetric_paths
 from orderconds.solve.spec import Spec, refuse
 from orderconds.solve.tableau_ansatz import tableau_structures
 
+# In the emitted text, the definition of k_i precedes this text (:func:`_numbers_of_exponentials`): stage i
+# begins with the first k_i exponentials of the update.
 MIRRORED = (
-    "Y_1, ..., Y_m are the exponents of the update; "
-    "stage i has the exponents Y_1, ..., Y_(k_i), X_i1, X_i2, ..., in this order; "
-    "bar X denotes the exponent X with its coefficients in reverse order; Y_I = bar Y_J if I + J = m + 1; "
-    "X_ir = -bar X_jr if i + j = s + 1, where s is the number of stages; if m and s are odd, the middle "
-    "stage i = (s+1)/2 has the additional exponent (1/2) Y_((m+1)/2) directly before X_i1"
+    "Y_1, ..., Y_m are the exponents of the update; s is the number of stages; "
+    "stage i has the exponents Y_1, ..., Y_(k_i), X_i1, X_i2, ..., in this order; but if m and s are odd, "
+    "stage i = (s+1)/2 has Y_1, ..., Y_(k_i), (1/2) Y_(k_i+1), X_i1, X_i2, ...; "
+    "bar X is X with its coefficients in reverse order; Y_I = bar Y_J if I + J = m + 1; "
+    "X_ir = -bar X_jr if i + j = s + 1"
 )
-"""The assumptions about the exponents of symmetric methods (:mod:`orderconds.solve.paths`).
-
-The function :func:`_numbers_of_exponentials` writes the definition of k_i before this text: stage i begins
-with the first k_i exponentials of the update.
-"""
+"""The assumptions about the exponents of symmetric methods (:mod:`orderconds.solve.paths`)."""
 
 
 def path_structures(family: Family, spec: Spec) -> tuple[str, ...]:

@@ -93,10 +93,11 @@ def _assumptions(family: Family, spec: Spec) -> tuple[str, ...]:
         assumptions.append("a_ij + a_(s+1-i)(s+1-j) = b_j for all i and j")
     if spec.fsal:
         assumptions.append("a_1j = 0 and a_sj = b_j for all j")
-    # A proof that no method exists replaces stages with the weight zero by stages with nonzero weights
-    # (:func:`orderconds.solve.elimination.infeasible`). With --dirk, --symmetric or --fix, this replacement
-    # could violate the option, and the proof needs the assumption of nonzero weights. If
-    # ``needs_nonzero_weights`` is true, the family already excludes zero weights.
+    # For each symplectic method with zero weights, a symplectic method without zero weights computes the same
+    # step. Therefore the proof in :func:`orderconds.solve.elimination.infeasible` considers only nonzero
+    # weights. With --dirk, --symmetric or --fix, the method without zero weights may violate the option, so
+    # the proof must assume nonzero weights. If ``needs_nonzero_weights`` is true, the family already excludes
+    # zero weights.
     if family.symplectic and not family.needs_nonzero_weights and (spec.dirk or spec.symmetric or spec.fix):
         assumptions.append("all weights b_i are nonzero")
     return tuple(assumptions)

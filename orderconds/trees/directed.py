@@ -175,9 +175,9 @@ def moves(tree: DirectedTree) -> Iterator[tuple[DirectedTree, DirectedTree, Dire
 
 
 def _simplest_roots(tree: DirectedTree) -> list[int]:
-    """Try each vertex of the tree as the root. Let n_0 and n_1 be the numbers of edges of kind 0 and of kind
-    1 in the tree with this root. Return the preorder indices of the vertices for which min(n_0, n_1) is
-    smallest. Among these vertices, the smallest height of the tree decides, and then the smallest n_1."""
+    """Try each vertex of the tree as the root. For each root, let n_0 and n_1 be the numbers of edges of kind
+    0 and of kind 1, and let H be the height of the tree. Return the preorder indices of all vertices for
+    which the triple (min(n_0, n_1), H, n_1) is smallest in lexicographic order."""
     edges, last, hats, below = len(tree) - 1, [0] * len(tree), [0] * len(tree), [0] * len(tree)
     parents, above = [0] * len(tree), [0] * len(tree)
     hats[0] = sum(level & 1 for level in tree[1:])

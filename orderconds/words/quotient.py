@@ -37,8 +37,9 @@ def orthogonal(generators: Sequence[Series], letters: Sequence[int], length: int
     """
     functionals: list[Functional] = []
     for content, words in sorted(_by_content(letters, length).items()):
-        # The first word of each functional should be a Lyndon word if possible. ``_kernel`` takes the first
-        # words from the end of ``columns`` if possible. Therefore the Lyndon words are at the end.
+        # Each word denotes a column of a matrix. For each column that is a linear combination of the columns
+        # to its left, ``_kernel`` yields a functional that begins with the word of this column. The Lyndon
+        # words are the rightmost columns, so that as many functionals as possible begin with a Lyndon word.
         columns = sorted(words, key=lambda word: (is_lyndon(word), word))
         rows = list(_ideal(generators, letters, length, content))
         functionals += _kernel(rows, columns)
