@@ -323,11 +323,11 @@ def _count_matrix(statistics):
 
 def _difference(memory, order, first, sign, sum):
     """Let d_0, ..., d_order be the coefficients of the backward difference of the
-    given order. Let u_0 be the latest stored solution, and let u_k be the
-    solution k steps earlier. If first = 0 and sign = 1, compute sum = d_0 u_0 +
-    d_1 u_1 + ... + d_order u_order, the backward difference. If first = 1 and
-    sign = -1, extrapolate to the next step: compute sum from d_0 sum + d_1 u_0 +
-    ... + d_order u_(order-1) = 0, where d_0 = 1.
+    given order. Let u_0 be the latest stored solution, and u_k the solution k
+    steps earlier. If first = 0 and sign = 1, compute sum = d_0 u_0 + ... +
+    d_order u_order, the backward difference. If first = 1 and sign = -1, compute
+    sum = -(d_1 u_0 + ... + d_order u_(order-1)), the value of the polynomial
+    through u_0, ..., u_(order-1) at the next step.
     """
     sum_0 = 0.0
     sum_1 = 0.0
