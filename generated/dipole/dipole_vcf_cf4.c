@@ -1322,7 +1322,7 @@ static inline int dipole_vcf_cf4_advance(double state[static 12], double h,
         + d_xi4_2 * w274;
     const double new_mu2 = w277 + d_xi3_0 * w278 + d_xi3_1 * w279 + d_xi4_0 * w280
         + d_xi4_1 * w281;
-    /* If the sum of all x overflows, test x - x (0 for finite x, else NaN). */
+    /* If the sum of all x overflows, test each x: x - x is 0 or, for infinite x, NaN. */
     if (!isfinite(new_g00 + new_g01 + (new_g02 + new_g10) + (new_g11 + new_g12)
         + (new_g20 + new_g21) + (new_g22 + new_mu0) + (new_mu1 + new_mu2)) && !(new_g00
         - new_g00 + (new_g01 - new_g01) + (new_g02 - new_g02 + (new_g10 - new_g10))

@@ -565,7 +565,7 @@ static inline int dipole_vcg_triple_jump_substep(double state[static 12], double
     const double new_mu0 = s_mu_0_seen + xi1_2 * w54 * d_xi1_1 + xi1_1 * w54 * d_xi1_2;
     const double new_mu1 = s_mu_1_seen - d_xi1_0 * xe1_2 - d_xi1_2 * xe1_0;
     const double new_mu2 = s_mu_2_seen + xi1_1 * w55 * d_xi1_0 + xi1_0 * w55 * d_xi1_1;
-    /* If the sum of all x overflows, test x - x (0 for finite x, else NaN). */
+    /* If the sum of all x overflows, test each x: x - x is 0 or, for infinite x, NaN. */
     if (!isfinite(new_g00 + new_g01 + (new_g02 + new_g10) + (new_g11 + new_g12)
         + (new_g20 + new_g21) + (new_g22 + new_mu0) + (new_mu1 + new_mu2)) && !(new_g00
         - new_g00 + (new_g01 - new_g01) + (new_g02 - new_g02 + (new_g10 - new_g10))

@@ -861,7 +861,7 @@ static inline int dipole_vrkmk2_gauss2_advance(double state[static 12], double h
     const double new_g20 = g20 * g_0 + g21 * g_3 + g22 * g_6;
     const double new_g21 = g20 * g_1 + g21 * g_4 + g22 * g_7;
     const double new_g22 = g20 * g_2 + g21 * g_5 + g22 * g_8;
-    /* If the sum of all x overflows, test x - x (0 for finite x, else NaN). */
+    /* If the sum of all x overflows, test each x: x - x is 0 or, for infinite x, NaN. */
     if (!isfinite(new_g00 + new_g01 + (new_g02 + new_g10) + (new_g11 + new_g12)
         + (new_g20 + new_g21) + (new_g22 + w128) + (w130 + w132)) && !(new_g00 - new_g00
         + (new_g01 - new_g01) + (new_g02 - new_g02 + (new_g10 - new_g10))

@@ -1080,7 +1080,7 @@ static inline int free_rigid_body_s3_discrete_gradient_midpoint_advance(double s
     const double Y_1_ = q3 * w475 - q2 * w476 + (q0 * w474 + q1 * c0_3);
     const double Y_2_ = q1 * w476 - q3 * w474 + (q0 * w475 + q2 * c0_3);
     const double Y_3_ = q2 * w474 - q1 * w475 + (q0 * w476 + q3 * c0_3);
-    /* If the sum of all x overflows, test x - x (0 for finite x, else NaN). */
+    /* If the sum of all x overflows, test each x: x - x is 0 or, for infinite x, NaN. */
     if (!isfinite(Y_0_ + Y_1_ + (Y_2_ + Y_3_)) && !(Y_0_ - Y_0_ + (Y_1_ - Y_1_)
         + (Y_2_ - Y_2_ + (Y_3_ - Y_3_)) == 0.0)) {
         return FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_NOT_FINITE;

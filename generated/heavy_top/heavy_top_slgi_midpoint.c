@@ -857,7 +857,7 @@ static inline int heavy_top_slgi_midpoint_advance(double state[static 12], doubl
     const double new_g21 = g01 * g_6 + g11 * g_7 + g21 * g_8;
     const double new_g22 = g02 * g_6 + g12 * g_7 + g22 * g_8;
     const double new_mu2 = mu0 * g_6 + mu1 * g_7 + mu2 * g_8 + w118;
-    /* If the sum of all x overflows, test x - x (0 for finite x, else NaN). */
+    /* If the sum of all x overflows, test each x: x - x is 0 or, for infinite x, NaN. */
     if (!isfinite(new_g00 + new_g01 + (new_g02 + new_g10) + (new_g11 + new_g12)
         + (new_g20 + new_g21) + (new_g22 + mu1_0) + (mu1_1 + new_mu2)) && !(new_g00 - new_g00
         + (new_g01 - new_g01) + (new_g02 - new_g02 + (new_g10 - new_g10))

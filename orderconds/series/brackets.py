@@ -369,8 +369,8 @@ class _Search:
 
         - the row of the element (:class:`BracketProgram`)
         - the element as a polynomial
-        - the element y of the outer bracket [q_1 + x, y + C_1] or [q_1 + x, y] (:class:`_Shape`), as a
-          polynomial; zero if there is no outer bracket
+        - the element y in the definition of :attr:`_Shape.outer`, as a polynomial; zero if ``shape.outer`` is
+          False
         """
         one, size = self.ring.one, len(self.pool)
 

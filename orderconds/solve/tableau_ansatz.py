@@ -93,11 +93,10 @@ def _assumptions(family: Family, spec: Spec) -> tuple[str, ...]:
         assumptions.append("a_ij + a_(s+1-i)(s+1-j) = b_j for all i and j")
     if spec.fsal:
         assumptions.append("a_1j = 0 and a_sj = b_j for all j")
-    # For each symplectic method with zero weights, a symplectic method without zero weights computes the same
-    # step. Therefore the proof in :func:`orderconds.solve.elimination.infeasible` considers only nonzero
-    # weights. With --dirk, --symmetric or --fix, the method without zero weights may violate the option, so
-    # the proof must assume nonzero weights. If ``needs_nonzero_weights`` is true, the family already excludes
-    # zero weights.
+    # The proof in :func:`orderconds.solve.elimination.infeasible` considers only nonzero weights. This is no
+    # assumption without options, because each symplectic method with zero weights computes the same step as a
+    # symplectic method with nonzero weights. But this second method may violate --dirk, --symmetric or --fix.
+    # If ``needs_nonzero_weights`` is true, the family already excludes zero weights.
     if family.symplectic and not family.needs_nonzero_weights and (spec.dirk or spec.symmetric or spec.fix):
         assumptions.append("all weights b_i are nonzero")
     return tuple(assumptions)

@@ -81,7 +81,7 @@ TOLERANCES = (1, 3, 5, 7, 9, 11)
 """In the interpreter, runs with step-size control have the tolerances 10^-k, with k in TOLERANCES."""
 
 FAR = 10.0
-"""Methods of order p are excluded if even methods of the orders p + 1 and p + 2 are too inaccurate.
+"""Methods of order p are excluded if the methods of the orders p + 1 and p + 2 have large errors.
 
 Let e be the least error that is predicted for the methods of these higher orders, with a given CPU time. With
 the same CPU time, the error of a method of order p is assumed to be at least e/FAR. Therefore methods of

@@ -43,7 +43,7 @@ from codegen.snippets.graph import LIBRARY
 MANY = 20
 """If more than ``MANY`` short statements follow each other, several statements are printed on each line."""
 
-ONE_TEST = "If the sum of all x overflows, test x - x (0 for finite x, else NaN)."
+ONE_TEST = "If the sum of all x overflows, test each x: x - x is 0 or, for infinite x, NaN."
 """The comment before a test that all numbers x are finite. The test first checks the sum of all x."""
 
 
