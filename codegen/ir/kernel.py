@@ -23,10 +23,10 @@ from codegen.ir.program import Substep
 from codegen.ir.site_step import SiteStep
 
 LEAD = "lead.h"
-"""The name of a symbol. In a step of a splitting method, the symbol is the duration of the last flow.
+"""The name of a symbol: the duration of the last flow in a step of a splitting method.
 
-In a run of several steps, the last flow of a step includes the first flow of the next step. The dot
-distinguishes the name from all names that a user can choose.
+In a run of several steps, this flow leads into the next step, because it includes the first flow of the next
+step. The dot distinguishes the name from all names that a user can choose.
 """
 
 ELAPSED = "elapsed.h"

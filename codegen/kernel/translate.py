@@ -309,8 +309,8 @@ class _Translation:
         """
         # ``before`` contains the names that are in use before ``schedule`` creates new names. The kernel
         # contains either the assignments of ``schedule`` or the outlined assignments, but never both.
-        # Therefore variables of ``schedule`` and of outlined assignments may have the same names, and
-        # ``self.taken`` is reset to ``before`` when outlining begins.
+        # Therefore variables of ``schedule`` and of outlined assignments may have the same names. Outlining
+        # begins with the names in ``before``.
         before = frozenset(self.taken)
         schedule = Assignments(self.blocks, ends, self.hints, self.name, self.variations is None)
         body = schedule.run()

@@ -151,7 +151,9 @@ class LinearLowering(FieldLowering):
 
 
 def _with_momentum(problem: Problem, step: Program) -> Program:
-    """Return ``step``. If the state contains the momentum u conjugate to time, an update of u is appended."""
+    """If the state contains the momentum u conjugate to time, append an update of u to ``step``. Return the
+    resulting program.
+    """
     time = next((v for v in step.inputs if v.kind is Kind.REAL), None)
     # If the step does not depend on time, the momentum conjugate to time does not change.
     if not problem.carries_momentum or time is None:

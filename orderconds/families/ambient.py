@@ -32,8 +32,8 @@ class AmbientFamily(RungeKuttaFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None. The orders in the families ``ambient`` and ``rk`` are equal, and a tableau file states
-        only the order in the family ``rk``."""
+        """Return None: a tableau file claims no order in this family, because it is always equal to the order
+        in the family ``rk``."""
         return None
 
     def implied_order(self, orders: Mapping[str, int]) -> int:

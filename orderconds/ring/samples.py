@@ -38,7 +38,7 @@ class Samples:
         self.zero, self.one = self.rational(0), self.rational(1)
 
     def rational(self, p: int, q: int = 1) -> Sample:
-        """Return the vector with p/q in every entry. Raises ValueError if the prime divides q."""
+        """Return the vector with p/q in every entry. Raises ValueError if ``self.prime`` divides q."""
         return Sample(self, nmod_poly([int(p) * pow(int(q), -1, self.prime)], self.prime))
 
     def element(self, values: Sequence[int]) -> Sample:

@@ -118,7 +118,7 @@ class HallBasis:
         if (x, y) in self._place:
             return {(x, y): Fraction(1)}
         if (x, y) not in self._known:
-            # Jacobi's identity is [x, [u, v]] = [[x, u], v] + [u, [x, v]], where x < u < v.
+            # Here x < u < v. Jacobi's identity gives [x, [u, v]] = [[x, u], v] + [u, [x, v]].
             u, v = y
             result = self._bracket(self._pair(x, u), {v: Fraction(1)})
             _add(result, Fraction(1), self._bracket({u: Fraction(1)}, self._pair(x, v)))

@@ -202,10 +202,11 @@ class Bar:
     def most(self, step_seconds: float) -> float:
         """Return the largest number of steps for a test run of a method in the interpreter.
 
-        ``step_seconds`` is the predicted CPU time of one step in compiled code. Compiled code can make
-        q = ``self.seconds`` / ``step_seconds`` steps in the largest accepted CPU time ``self.seconds``, so
-        test runs with more than q steps are useless. The result is q, but at most :data:`MANY_STEPS` and at
-        least ``self.steps``. If ``step_seconds`` is 0, the result is MANY_STEPS.
+        A test run predicts the error of a run of compiled code with the same number of steps. The run of
+        compiled code may take at most ``self.seconds`` of CPU time, and one of its steps takes about
+        ``step_seconds``. Therefore it has at most q = ``self.seconds``/``step_seconds`` steps, and test runs
+        with more steps are useless. The result is q, but at most :data:`MANY_STEPS` and at least
+        ``self.steps``. If ``step_seconds`` is 0, the result is MANY_STEPS.
         """
         return max(self.steps, min(MANY_STEPS, self.seconds / step_seconds)) if step_seconds else MANY_STEPS
 

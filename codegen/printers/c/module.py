@@ -120,7 +120,7 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         "dense": interface.dense,
         "variation": kernel.vary.state[-1].meaning if kernel.vary is not None else "",
         "statistics": ["", *printer.record("statistics")] if interface.blocks else [],
-        # ``head`` also prints the first lines of definitions, so prototypes and definitions agree.
+        # ``head`` prints the prototypes and the first lines of the definitions, so they agree.
         "heads": {name: printer.head(function, header=True) for name, function in public.items()},
         "parts": [*([text] for text in snippets.texts), *_definitions(unit, printer, interface)],
     }
