@@ -300,7 +300,7 @@ class Observation:
     def _guess(
         self, high: Term, ahead: Term, trials: Term, width: Term, low_weight: Term, high_weight: Term
     ) -> tuple[Statement, ...]:
-        """Return the statements that choose ``middle``, a fraction of the step. Events are tested there next."""
+        """Return the statements that choose ``middle``: the next fraction of the step to test for events."""
         i, estimate, difference = count("i"), real("estimate"), real("difference")
         # For each event function with a change of sign, let a and b be the values at ``low`` and ``high``,
         # multiplied by the weights of the Illinois method (:meth:`_moved`). A secant interpolates a and b.
