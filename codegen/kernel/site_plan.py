@@ -138,8 +138,7 @@ class Planner:
         # An open chain has no border. In a periodic chain, the border contains the columns of Newton's matrix
         # for the unknowns of the last site. For a block with n unknowns at each site, the border has n
         # columns, and each column has n entries for each site. A row of the workspace has one entry for each
-        # site, so the border needs n * n rows. All blocks share the rows of the block with the largest n,
-        # which is ``most``.
+        # site, so the border needs n * n rows. All blocks share these rows, and ``most`` is the largest n.
         matrix = border + (most * most if self.sites.periodic else 0)
         blocks = []
         for own, block, size in zip(step.blocks, self.blocks, sizes, strict=True):

@@ -72,6 +72,8 @@ class _Check:
         self.symbols = (*orbit.symbols, TIME)
 
     def run(self, root: Expr) -> None:
+        # The argument of abs(choose(y, 1, -1)) has the derivative zero. Its selection choose(y, 1, -1) is also
+        # in the list, so jumps at y = 0 are found.
         changing = [n for n in selections([root]) if not self.constant(n.args[0], self.velocity)]
         if not changing:
             return
@@ -127,12 +129,8 @@ class _Check:
             if not all(_joined(table, k) for k in range(len(table.knots))):
                 raise self.error("contains a table with jumps")
             return
+        # Constants have no zeros. At least one formula is not constant, because ``x`` changes along solutions.
         formulas = [f for f in _formulas(x) if f.op != "const"]
-        if not formulas:
-            # ``x`` is piecewise constant, so ``node`` switches only where a selection in ``x`` switches. For
-            # example, abs(x) with x = choose(y, 1, -1) switches only at y = 0. When ``run`` calls this method
-            # for the selection choose(y, 1, -1), the continuity of ``root`` at y = 0 is checked.
-            return
         compared = False
         usual = [v[0] for point in self.orbit.points if (v := self.orbit.values((root,), point)) is not None]
         for point, formula in product(self.orbit.points, formulas):
