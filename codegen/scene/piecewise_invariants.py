@@ -72,8 +72,8 @@ class _Check:
         self.symbols = (*orbit.symbols, TIME)
 
     def run(self, root: Expr) -> None:
-        # The argument of abs(choose(y, 1, -1)) has the derivative zero. Its selection choose(y, 1, -1) is also
-        # in the list, so jumps at y = 0 are found.
+        # The argument of abs(choose(y, 1, -1)) has the derivative zero. But choose(y, 1, -1) is in the list,
+        # too, so jumps at y = 0 are found.
         changing = [n for n in selections([root]) if not self.constant(n.args[0], self.velocity)]
         if not changing:
             return
@@ -129,7 +129,7 @@ class _Check:
             if not all(_joined(table, k) for k in range(len(table.knots))):
                 raise self.error("contains a table with jumps")
             return
-        # Constants have no zeros. At least one formula is not constant, because ``x`` changes along solutions.
+        # ``run`` calls this method only if ``x`` changes along solutions, so a formula is not constant.
         formulas = [f for f in _formulas(x) if f.op != "const"]
         compared = False
         usual = [v[0] for point in self.orbit.points if (v := self.orbit.values((root,), point)) is not None]
