@@ -51,8 +51,8 @@ def part(program: Program, scene: Problem) -> Parted | None:
     """Split the program of a splitting method into programs for the start, the steps and the end of a run.
 
     The result is None if the program is not a composition of flows. The result is also None if no flow can be
-    joined or deferred (:class:`Parted`), or if all flows can be deferred, because no flow
-    would remain in the steps.
+    joined or deferred (:class:`Parted`), or if all flows can be deferred, because no flow would remain in the
+    steps.
     """
     letters = word(program)
     if letters is None:

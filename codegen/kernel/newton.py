@@ -55,6 +55,8 @@ def matrix(images: Sequence[Expr], unknowns: Sequence[str]) -> Rows:
     """Return the rows of Newton's matrix 1 - g'(u).
 
     ``unknowns`` are the names of the components of u. The expressions ``images`` are the components of g(u).
+    ZeroDivisionError is raised if the divisor of a quotient contains, at h = 0, a division by zero or a value
+    such as log(0).
     """
     space = images[0].space
     rows = jacobian(_regular(images), unknowns)
