@@ -45,7 +45,9 @@ in NEAR give k.
 """
 
 VANISHING = 1e-30
-"""The largest accepted difference between a step and its Taylor polynomial, relative to the state.
+"""The largest accepted difference between a step and its Taylor polynomial, divided by max(1, s).
+
+Here s is the largest absolute value of a coordinate after the step.
 
 The step itself has a tolerance of at most 1e-33. A difference above VANISHING is therefore caused by an error
 of the polynomial. The search for a point where the field is not smooth (:func:`_root`) has the smaller

@@ -64,8 +64,8 @@ class Recommendation:
     - ``places``: for each successful recipe, the fastest run with at most the required error. Fast runs
       come first.
     - ``best``: if no recipe is successful, the most accurate run of a recipe that meets ``request.needs`` and
-      ``request.stack``, or None if no measured recipe meets them. If ``places`` contains a run, ``best`` is
-      not needed and is None.
+      ``request.stack``, or None if no measured recipe meets them. The test in a long run is ignored, so the
+      recipe can be in ``lost``. If ``places`` contains a run, ``best`` is not needed and is None.
     - ``predicted``: the number of pairs (method, form of the equations) whose CPU time was predicted.
     - ``raced``: the number of measured recipes.
     - ``seconds``: the time of the search in seconds.

@@ -11,9 +11,10 @@ pairs (xi_1, nu_1) and (xi_2, nu_2), the symplectic form has the value
 The brackets <nu, xi> denote the pairing of the dual with the Lie algebra, and [xi_1, xi_2] is the Lie
 bracket. The formula is eq. (2.26) of H. Marthinsen, *Lie group integrators*.
 
-The defect does not depend on the units of length, mass and time: each direction of the tangent space is
-measured in a scale of its own (:class:`_Scales`), and the increments of the finite differences are
-proportional to these scales.
+Each direction of the tangent space is measured in a scale of its own (:class:`_Scales`), and the increments
+of the finite differences are proportional to these scales. Therefore the defect does not depend on the units
+of length, mass and time if all coordinates of the group element have the same unit, and all coordinates of
+the momentum have the same unit. On SE(3), for example, the units differ, and the defect depends on them.
 """
 
 from __future__ import annotations

@@ -51,7 +51,7 @@ The computed points need not be accurate.
 """
 
 DENOMINATOR = 64
-"""The largest denominator of the rational initial coordinates that :func:`with_exact_start` chooses."""
+"""The largest denominator of the rational coordinates in :func:`with_exact_start` and :func:`_later`."""
 
 
 @dataclass(frozen=True)

@@ -23,11 +23,11 @@ from itertools import pairwise
 SETTLED = 0.1
 TOLERANCE = 0.25
 CLEAR = 100.0
-"""A run is used for slopes only if the error of the run is larger than two bounds.
+"""A run is used for slopes only if the error of the run is larger than three bounds.
 
-The bounds are CLEAR times the estimated rounding error of the run and CLEAR times the uncertainty of the
-reference solution. Let h and h/2 be the step sizes of two such runs. Then rounding changes the slope by less
-than 0.03, and the uncertainty changes the slope by less than 0.03.
+The bounds are CLEAR times the estimated rounding error of the state, CLEAR times the estimated error from the
+rounding of the time, and CLEAR times the uncertainty of the reference solution. Let h and h/2 be the step
+sizes of two such runs. Then each of the three errors changes the slope by less than 0.03.
 """
 
 ZERO = 0.5
@@ -189,8 +189,8 @@ def refine(run: Callable[[int], Run], most: int, to_rounding: bool = False) -> R
 
 
 def rounding(steps: int, epsilon: float, size: float) -> float:
-    """Return an estimate of the largest accumulated rounding error of a run.
+    """Return an estimate of the largest accumulated rounding error of a coordinate in a run.
 
-    ``epsilon`` is the machine epsilon, and ``size`` is the size of the state.
+    ``epsilon`` is the machine epsilon, and ``size`` is the size of the coordinate.
     """
     return steps * epsilon * size

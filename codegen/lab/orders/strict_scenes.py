@@ -2,7 +2,7 @@
 
 The scenes have no special property that could hide an error in a method. Examples of such properties are a
 fixed axis of rotation, an axis of rotation that is orthogonal to the rotated vector, and a field that does
-not depend on time.
+not depend on time. The scenes for splitting methods are an exception: their fields do not depend on time.
 
 Each kind of method has its own scenes:
 
