@@ -243,7 +243,8 @@ class Reference:
         in decreasing order. The comparison uses the first length for which ``program`` does not fail.
         ``program`` fails if a result is NaN, or if an exception is raised. For example, an exception is
         raised if an iteration does not converge. If ``program`` fails for all lengths, return a description
-        of a failure, or None if the reference program fails for all lengths, too.
+        of a failure, or None if the reference program also fails for all lengths in arithmetic with
+        :data:`FEW_DIGITS` digits.
         """
         failure = None
         for step in point.results():

@@ -24,7 +24,8 @@ TYPICAL_STEPS = 16
 """A number that determines the durations for the test whether two flows commute.
 
 The durations are about T/TYPICAL_STEPS, where T is the length of the time span of the scene. The choice of
-the number is not critical: flows that commute over one duration commute over all durations.
+the number is not critical: except by coincidence (for example, if a rotation makes a full turn), flows that
+commute over one duration commute over all durations.
 """
 
 

@@ -129,9 +129,10 @@ def _identities(tableau: Tableau) -> Vanishing:
     """Return which coefficients of |Q|^2 - |P|^2 are zero, where P/Q is the stability function.
 
     On the negative real axis and on the imaginary axis, |Q|^2 - |P|^2 is a polynomial (:class:`Vanishing`).
-    The tableau can contain rounded decimals. A coefficient counts as zero only if it is zero for all values
-    of these decimals. To test this, the function replaces the decimals by random numbers. The probability of
-    a wrong answer is negligible (:mod:`orderconds.tableau.random_member`).
+    The tableau can contain rounded decimals and radicals. A coefficient counts as zero only if it is zero for
+    all values of these numbers. To test this, the function replaces them by random numbers. The probability
+    of a wrong answer is negligible (:mod:`orderconds.tableau.random_member`). If the tableau has no proof,
+    no coefficient counts as zero.
     """
     if tableau.proof is None:
         return Vanishing()
