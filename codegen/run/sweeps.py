@@ -349,16 +349,16 @@ class _Newton(_Loop):
     def prepared(self) -> list[Statement]:
         """Return the statements that compute and invert the matrix before the sweeps of a step.
 
-        If elimination finds a singular matrix, the emitted function returns the status SINGULAR. If the
-        matrix contains infinities or NaNs, the status is NOT_FINITE.
+        If the elimination fails, the emitted function returns NOT_FINITE if the array of the matrix contains
+        an infinity or a NaN after the elimination, and SINGULAR otherwise.
         """
         sequence = self.entries()
         if self.newton.inverted:
             return sequence
         n, inverted = len(self.unknowns), count(f"inverted_{self.number}")
         sequence = [Array(self.inverse), *sequence, Call("invert", (whole(n), self.inverse), (inverted,))]
-        # If the elimination fails for a matrix with infinities or NaNs, the array ``self.inverse`` contains
-        # an infinity or a NaN afterwards. Therefore this array shows the cause of the failure.
+        # If the elimination fails for a matrix with a NaN, the array ``self.inverse`` contains a NaN
+        # afterwards. An infinity can be lost: the reciprocal of an infinite pivot is 0.
         cause = select(all_finite(self.inverse), code(SINGULAR), code(NOT_FINITE))
         # The function ``count_sweeps`` reads the status to record a failure, so the status is set first.
         counted = (count_sweeps(self.plan, self.number - 1, whole(0)),) if self.counting else ()
