@@ -7,9 +7,10 @@ The Stumpff functions are defined by the series c_k(z) = sum_j (-z)^j/(2j+k)!. T
 
 If z <= SWITCH[k], c_k is evaluated by a polynomial. If z > SWITCH[k], c_0 and c_1 are evaluated by their
 closed forms. The closed forms of c_2 and c_3 suffer from cancellation. Instead, the formulas c_2(z) =
-c_1(z/4)^2/2 and c_3(z) = (1 - c_1(z))/z are used. Let u be one unit in the last place of z. The error of
-c_k(z) is at most max |c_k(z +- u) - c_k(z)|, plus two units in the last place of c_k(z). For z above
-:func:`limit`, c_k(z) is NaN.
+c_1(z/4)^2/2 and c_3(z) = (1 - c_1(z))/z are used. Let u be 3/2 units in the last place of z: the rounding
+error of sqrt z has the same effect as an error of at most sqrt(2) units in z. The error of c_k(z) is at most
+max |c_k(z +- u) - c_k(z)|, plus two units in the last place of c_k(z). For z above :func:`limit`, c_k(z) is
+NaN.
 """
 
 from __future__ import annotations

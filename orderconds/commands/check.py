@@ -66,7 +66,7 @@ WIDTH = 200
     "--complete",
     is_flag=True,
     help="Require a claim in every family to which the method belongs, and report each missing claim. "
-    "A claim is not required if it follows from the claim in another family.",
+    "For example, a Butcher tableau needs claims in rk, cg and rkmk.",
 )
 @click.option(
     "--certified",
