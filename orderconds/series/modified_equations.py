@@ -3,10 +3,9 @@
 One step of size h of a method equals the flow of a modified vector field f~ = f + h f_2 + ... over time h. A
 tree t has the coefficient a(t) in the step and the coefficient b(t) in f~. The removal of an edge e divides t
 into two trees: r_e contains the root of t, and u_e does not. An operator L maps a function c of trees to the
-function (L c)(t) = sum_e c(r_e) b(u_e), where e runs through the edges of t. Then a = sum_(j >= 1) (1/j!)
-L^(j-1) b
-(Hairer, Lubich and Wanner (HLW), *Geometric Numerical Integration*, IX.9.1). For series over ordered forests,
-see Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011) 295."""
+function (L c)(t) = sum_e c(r_e) b(u_e), where e runs through the edges of t. Then
+a = sum_(j >= 1) (1/j!) L^(j-1) b (Hairer, Lubich and Wanner (HLW), *Geometric Numerical Integration*,
+IX.9.1). For series over ordered forests, see Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011) 295."""
 
 from __future__ import annotations
 

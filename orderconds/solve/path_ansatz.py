@@ -115,8 +115,8 @@ def _abscissae(
     formulas, the three abscissae of each stage are equal. The module :mod:`orderconds.solve.abscissae`
     defines the abscissae.
 
-    Let k_j be the value of stage j, and let a_ij be the sum of the coefficients of k_j in all exponentials of
-    stage i. The map contains formulas for
+    Let k_j be the vector field at stage j, and let a_ij be the sum of the coefficients of k_j in all
+    exponentials of stage i. The map contains formulas for
 
     - the numbers in :func:`commutator_free_times`;
     - the sums a_ij; if a sum can be chosen freely, its name is mapped to itself;

@@ -111,7 +111,8 @@ def _symplectic(
     For a symmetric method with s stages, the equations for (i, j) and for (s + 1 - j, s + 1 - i) are
     equivalent. The equation for (i, s + 1 - i) follows from the symmetry.
 
-    Raises InputError if the constraints imply b_i = 0 for a weight, or determine both a_ij and a_ji.
+    Raises InputError if the constraints imply b_i = 0 for a weight. The same error is raised if they
+    determine both a_ij and a_ji, and the equation for (i, j) does not follow from them.
     """
     for weight in b:
         if not elimination.cell(weight):

@@ -53,7 +53,7 @@ def uncertainty(tableau: Tableau, bits: int) -> str:
 
 
 def largest_radius(tableau: Tableau) -> float:
-    """Return the largest radius of a coefficient, or 0 if all coefficients are exact numbers.
+    """Return the largest radius of a coefficient, or 0 if the coefficients are not balls (intervals).
 
     >>> from orderconds.tableau import find
     >>> largest_radius(Tableau.load(find("rk4")))
