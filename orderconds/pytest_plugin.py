@@ -25,8 +25,8 @@ FLAGS = {
     "--orderconds": "collect tableau files (TOML, JSON, CSV, NPZ, Python, LaTeX, C) and check their claims",
     "--orderconds-require-claims": "like --orderconds; a tableau that claims no order fails",
     "--orderconds-complete": "like --orderconds; a test fails unless the file claims an order in every "
-    "family to which the method belongs. A claim is not required if it follows from the claim in another "
-    "family.",
+    "family to which the method belongs. A family whose order always follows from the order in another "
+    "family needs no claim.",
     "--orderconds-certified": "like --orderconds; a test fails if a claimed order is not proved",
     "--orderconds-execute": "like --orderconds; also execute each Python file and read its arrays",
 }
