@@ -37,9 +37,9 @@ def read(text: str, names: tuple[str, ...]) -> Rows:
 
     - The first cell is ``c``, and the other cells begin with ``a``: ``c,a1,a2``. This is the header of a
       tableau.
-    - Each cell begins with a letter and contains only letters, digits, blanks and ``_()./^-``, for example
-      ``time (s)``. The first cell is not in ``names``, the list of array names. This is the header of another
-      table.
+    - There are at least two cells. Each non-empty cell begins with a letter and contains only letters,
+      digits, blanks and ``_()./^-``, for example ``time (s)``. The first cell is not in ``names``, the list
+      of array names. This is the header of another table.
 
     Raises :class:`csv.Error` for misplaced or unmatched quotation marks.
 

@@ -64,8 +64,9 @@ class Equations:
     """If the value is an integer s, only conditions for words in the letters 1, ..., s are used."""
     kept: tuple[OrderCondition, ...] | None = None
     """The conditions of the main method that become equations. If the value is None, ``proof.reduction`` and
-    ``letters`` determine the equations. If there is no reduction either, all independent conditions up to the
-    order ``proof.order`` become equations."""
+    ``letters`` determine the equations. If there is no reduction either, the conditions that
+    ``family.conditions(n)`` returns for n = 1, ..., ``proof.order`` become equations. Some of them may be
+    dependent."""
     lower: tuple[OrderCondition, ...] = ()
     """The conditions of the embedded method of a low-storage (2N) scheme. In the list of equations, these
     conditions follow the conditions of the scheme."""
