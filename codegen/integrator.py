@@ -212,7 +212,8 @@ class Integrator(RunToEnd):
         rejected steps.
 
         TypeError is raised if the module was emitted without ``adaptive=True``. StepFailed is raised if a
-        step fails. If ``limit`` steps are too few, StepFailed is raised with the status ``LIMIT``.
+        step fails. If ``limit`` steps are too few, StepFailed is raised with the status ``LIMIT``. If
+        ``t_eval`` was given, ``arrival.states`` of this error are the states at the times that were reached.
         """
         if not self.interface.adaptive:
             raise TypeError("this module has no adaptive run; emit it with adaptive=True")

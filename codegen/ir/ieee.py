@@ -1,7 +1,7 @@
 """Functions of doubles with the results of IEEE arithmetic.
 
-The functions of the module :mod:`math` raise an exception if a result is infinite or NaN. C returns the
-infinity or the NaN, and a formula such as 1/cosh(x) or atan(exp(x)) may still have a finite value.
+Where C returns an infinity or a NaN, the functions of the module :mod:`math` often raise an exception. But a
+formula such as 1/cosh(x) or atan(exp(x)) can have a finite value although a part of the formula is infinite.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ be finite. Therefore Python modules in double precision call helpers that return
 """
 
 UNDEFINED = ("acos", "asin", "cos", "sin", "sqrt", "tan")
-"""Functions whose result may be NaN at a number that is not NaN.
+"""Functions whose result may be NaN at a number that is not NaN. The logarithm is in :data:`OVERFLOWING`.
 
 If a part of a formula is NaN, the value of the formula is usually NaN. There are two exceptions: the function
 ``choose`` can ignore a NaN, and a solver of implicit equations can return an error status in place of a NaN.

@@ -109,8 +109,9 @@ class _Graph:
                 continue
             gone[v] = True
             neighbours = self._take_out(v)
-            # The cost of a vertex depends only on how many edges it has (:meth:`_cost`). The elimination
-            # of v changes only edges of the neighbours of v, so only the neighbours get new costs.
+            # The cost of a vertex depends only on how many edges enter it and how many edges leave it
+            # (:meth:`_cost`). The elimination of v changes only edges of the neighbours of v, so only the
+            # neighbours get new costs.
             for u in neighbours:
                 # Only inner vertices are in both tables. Variables and results are never eliminated.
                 if u in self.before and u in self.after:

@@ -142,15 +142,16 @@ class RoundingDomain:
 
         The size of a result r is |r| + |q|, where q is a difference quotient that estimates the effect of the
         rounding errors of the arguments on r. In the difference quotient, all arguments change at the same
-        time, because one difference quotient for each argument would be expensive. The arguments change by
-        different multiples of their sizes. With equal multiples, the changes of x and y could cancel in a
-        result such as x - y.
+        time, because one difference quotient for each argument would be expensive. Any 13 consecutive
+        arguments change by different multiples of their sizes. With equal multiples, the changes of x and y
+        could cancel in a result such as x - y.
         """
         values = [x.value for x in args]
         results = self.plain.vector(function, values)
 
         def along(step: Scalar) -> tuple[Scalar, ...]:
             # The factors are ``step`` * 1, ``step`` * 23/16, ``step`` * 17/16, ``step`` * 3/2, ....
+            # The sequence repeats after 13 arguments.
             factors = (step * (16 + 7 * k % 13) / 16 for k in range(len(args)))
             return self.plain.vector(
                 function, [x.value + t * x.size for x, t in zip(args, factors, strict=True)]
