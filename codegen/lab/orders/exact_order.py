@@ -51,7 +51,7 @@ The computed points need not be accurate.
 """
 
 DENOMINATOR = 64
-"""The largest denominator of the rational coordinates in :func:`with_exact_start` and :func:`_later`."""
+"""The largest denominator of the rational numbers that replace coordinates x with abs(x) >= 1/DENOMINATOR."""
 
 
 @dataclass(frozen=True)
@@ -220,7 +220,7 @@ def _later(scene: Problem, method: Method, fraction: Fraction) -> Problem | None
     values = iter(state)
 
     def moved(block: StateField) -> StateField:
-        near = [Fraction(next(values)).limit_denominator(DENOMINATOR) for _ in block.initial]
+        near = [_near(next(values)) for _ in block.initial]
         numbers = [Number.rational(x.numerator, x.denominator) for x in near]
         pairs = zip(block.initial, numbers, strict=True)
         return replace(block, initial=tuple(e.space.const(x) for e, x in pairs))
@@ -272,6 +272,17 @@ def _texts(ring: Ring, error: Vector, power: int) -> tuple[str, ...]:
     return tuple(ring.text(x.coefficients[power]) for x in error)
 
 
+def _near(x: float) -> Fraction:
+    """Return a rational number near ``x``. Its relative error is below 1/50, so only 0 becomes 0.
+
+    >>> _near(0.333), _near(0.001)
+    (Fraction(1, 3), Fraction(21, 20992))
+    """
+    # If abs(x) is small, the multiple of x by a power of 2 is rounded. The multiple is between 1/2 and 1.
+    scale = Fraction(2) ** (math.frexp(x)[1] if abs(x) < 1 / DENOMINATOR else 0)
+    return (Fraction(x) / scale).limit_denominator(DENOMINATOR) * scale
+
+
 def with_exact_start(scene: Problem, ring: Ring) -> Problem:
     """Return the scene with an initial state whose coordinates are exact numbers in ``ring``.
 
@@ -285,7 +296,7 @@ def with_exact_start(scene: Problem, ring: Ring) -> Problem:
         try:
             evaluate([e], domain, parameters)
         except (ArithmeticError, ValueError):
-            near = Fraction(value).limit_denominator(DENOMINATOR)
+            near = _near(value)
             return e.space.const(Number.rational(near.numerator, near.denominator))
         return e
 

@@ -66,6 +66,15 @@ def test_an_irrational_start_is_replaced_by_a_rational_one() -> None:
     assert exact.start == ("3/4", "3/4")
 
 
+@pytest.mark.parametrize("x", [0.0, 0.001, -0.007, 1e-12, 5e-324, 0.0156, 0.3, -7.77, 1e12])
+def test_a_rational_coordinate_has_a_small_relative_error(x: float) -> None:
+    """A coordinate in small units must not become zero: at zero, the field may vanish."""
+    near = exact_order._near(x)
+    assert abs(near - Fraction(x)) <= abs(Fraction(x)) / 50
+    if abs(x) >= 1 / exact_order.DENOMINATOR:
+        assert near.denominator <= exact_order.DENOMINATOR
+
+
 def test_an_order_below_the_stated_one_fails(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(exact_order, "certified_order", lambda method, scene: CertifiedOrder(4, "exact"))
     assert error_of("free_rigid_body", "cg:cg3").verdict == "fails"
