@@ -8,10 +8,13 @@ group exponential and no code of the tested integrators.
 
 from __future__ import annotations
 
+import hashlib
 import math
+import sys
 import time
 from dataclasses import dataclass
-from functools import partial
+from functools import cache, partial
+from pathlib import Path
 
 from flint import arb
 
@@ -21,7 +24,6 @@ from codegen.lab.ambient_field import ambient_field
 from codegen.lab.measurement_cache import MeasurementCache, user_cache
 from codegen.lab.number_types import Evaluate, Scalar, Vector
 from codegen.lab.piecewise_field import PiecewiseField, Sided
-from codegen.lab.step_polynomial import MOST_INTERVALS
 from codegen.lab.straight_line_field import velocity
 from codegen.scene.problem import Problem
 from orderconds.ring.precision import precision
@@ -59,6 +61,29 @@ MOST_STEPS = 10_000
 """The largest number of extrapolation steps, including rejected steps.
 
 If more steps are necessary, SceneError is raised.
+"""
+
+DIVERGES = "extrapolation does not converge; perhaps the field is not smooth near this time"
+UNLIKE = (
+    "the Taylor polynomial of the solution is not accurate even on very short intervals; "
+    "perhaps the field has no power series near this time"
+)
+"""Reasons why no step is possible: the error estimate of the extrapolation is too large, or the step differs
+from its Taylor polynomial (:meth:`codegen.lab.piecewise_field.Sided.stopped`).
+"""
+
+MODULES = (
+    __name__,
+    "codegen.ir.smoothness",
+    "codegen.lab.ambient_field",
+    "codegen.lab.number_functions",
+    "codegen.lab.piecewise_field",
+    "codegen.lab.step_polynomial",
+    "codegen.lab.straight_line_field",
+)
+"""The modules whose formulas and constants determine a reference solution.
+
+A stored solution is used only if these modules have not changed since it was computed.
 """
 
 
@@ -127,8 +152,15 @@ def _key(scene: Problem) -> tuple[object, ...]:
         [x.text() for x in field.constants],
         [str(x) for x in start],
         [str(x) for x in scene.span],
-        (AGREEMENT, BITS, DIGITS, RUNS, MOST_INTERVALS),
+        _digest(),
     )
+
+
+@cache
+def _digest() -> str:
+    """Return a digest of the texts of :data:`MODULES`."""
+    texts = (Path(str(sys.modules[name].__file__)).read_bytes() for name in MODULES)
+    return hashlib.sha256(b"\0".join(texts)).hexdigest()
 
 
 def reference(scene: Problem, end: float = math.inf) -> Reference:
@@ -177,7 +209,7 @@ def _integrate(
     t, end = (arb(x.numerator) / x.denominator for x in scene.span)
     whole = float(end - t)
     step = whole / 8
-    reason = "extrapolation does not converge; perhaps the field is not smooth near this time"
+    reason = DIVERGES
     sided = field if isinstance(field, Sided) else None
     if sided is not None:
         sided.begin(y, t)
@@ -207,11 +239,15 @@ def _integrate(
                 stopped = sided.stopped(y, t, new, length, partial(_extrapolate, columns=columns))
                 if stopped is not None:
                     t, y, step = stopped
+                    if step < float(length):
+                        reason = UNLIKE
                     continue
             t, y = (t + step).mid(), new
             if last:
                 return y, () if sided is None else tuple(sided.kinks)
         # The error estimate is proportional to step^p with p = 2 * columns - 1.
+        if error > tolerance * size:
+            reason = DIVERGES
         ratio = (tolerance * size / error) ** (1 / (2 * columns - 1)) if error else 4.0
         step = min(step, float(left)) * max(0.2, min(4.0, 0.9 * ratio))
     else:
