@@ -160,17 +160,17 @@ def unreached(result: Recommendation) -> str:
     asked = result.request
     needs = f" with {', '.join(asked.needs)}" if asked.needs else ""
     missed = f"no method{needs} reaches the error {asked.error:g}"
+    if result.lost:
+        missed = (
+            f"every measured method{needs} that reaches the error {asked.error:g} loses a conserved quantity"
+        )
+        return f"{asked.scene}: {missed} in a long run; relax --need or --error\n{searched(result)}"
     if result.best is None and not result.complete:
         missed = f"no method{needs} was measured before the time budget ended"
         return f"{asked.scene}: {missed}; increase --budget"
     if result.best is None:
         return f"{asked.scene}: {missed}; no method has the required properties; relax --need or --stack"
     best = result.best
-    if result.lost:
-        missed = (
-            f"every measured method{needs} that reaches the error {asked.error:g} loses a conserved quantity"
-        )
-        return f"{asked.scene}: {missed} in a long run; relax --need or --error\n{searched(result)}"
     by = f"reached by {best.entry.recipe.label} ({control(asked, best)})"
     least = f"the smallest measured error is {best.error:.1e}, {by}"
     if best.error <= asked.error:

@@ -50,6 +50,15 @@ class LieGroup(ABC):
     provides: ClassVar[str] = "group operations"
     """Error messages use this name for the operations of the class, for example ``coadjoint action``."""
 
+    @property
+    def blocks(self) -> tuple[tuple[int, int], ...]:
+        """The blocks of coordinates that can have units of their own, in order.
+
+        Each block is a pair (number of coordinates in the algebra, number of coordinates of an element). For
+        example, the blocks of SE(3) are (3, 9) for rotations and (3, 3) for translations.
+        """
+        return ((self.dim, self.size),)
+
     @abstractmethod
     def identity(self, d: Domain) -> Vector[S]:
         """Return the neutral element e as ``size`` scalars. For all g, e g = g e = g."""

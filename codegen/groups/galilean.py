@@ -23,6 +23,7 @@ class Galilean(Semidirect):
     """
 
     name = "Gal(3)"
+    blocks = ((3, 9), (3, 3), (3, 3), (1, 1))
 
     def __init__(self, rotations: LieGroup | None = None) -> None:
         super().__init__(SE3(rotations), _Events(), "Gal(3)")

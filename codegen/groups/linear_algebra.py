@@ -181,3 +181,16 @@ def rational_inverse(a: Sequence[Sequence[Fraction]]) -> list[list[Fraction]] | 
             if i != k:
                 rows[i] = [x - rows[i][k] * y for x, y in zip(rows[i], rows[k], strict=True)]
     return [row[n:] for row in rows]
+
+
+def vector_sum(first: Vector[S], *others: Vector[S]) -> Vector[S]:
+    """Return the sum of vectors."""
+    total = first
+    for other in others:
+        total = tuple(a + b for a, b in zip(total, other, strict=True))
+    return total
+
+
+def vector_difference(a: Vector[S], b: Vector[S]) -> Vector[S]:
+    """Return a - b."""
+    return tuple(p - q for p, q in zip(a, b, strict=True))

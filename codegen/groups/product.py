@@ -45,6 +45,11 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
         self.abelian = all(f.abelian for f in factors)
         self.layout = ": " + "; ".join(f.name + f.layout for f in factors)
 
+    @property
+    def blocks(self) -> tuple[tuple[int, int], ...]:
+        """The blocks of the factors (:attr:`LieGroup.blocks`)."""
+        return tuple(block for factor in self.factors for block in factor.blocks)
+
     def parts(self, x: Vector[S]) -> tuple[Vector[S], ...]:
         """Split x into one tuple of coordinates for each factor.
 

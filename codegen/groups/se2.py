@@ -27,6 +27,7 @@ class SE2(Coadjoint, PointMotions, Projection, Inverse, CayleyMap):
     # In emitted code, ``layout`` follows the name of the group, so the text begins with a comma.
     name, layout = "SE(2)", ", cosine and sine of the angle, then the translation"
     dim, size, point_size = 3, 4, 2
+    blocks = ((1, 2), (2, 2))
 
     def identity(self, d: Domain) -> Vector[S]:
         """Return the identity map of the plane."""

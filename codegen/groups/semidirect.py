@@ -27,7 +27,7 @@ from codegen.groups.capabilities import (
 )
 from codegen.groups.construction import check_factor
 from codegen.groups.cubic_ad import DEXP
-from codegen.groups.linear_algebra import S, Vector
+from codegen.groups.linear_algebra import S, Vector, vector_difference, vector_sum
 from codegen.groups.representations import Pair, Representation
 from codegen.ir.ad_series import Factor
 from codegen.ir.domain import Domain
@@ -85,6 +85,11 @@ class Semidirect(
         self.dim, self.size = linear.dim + self.point_size, linear.size + self.point_size
         self.abelian = False
 
+    @property
+    def blocks(self) -> tuple[tuple[int, int], ...]:
+        """The blocks of the linear factor, and one block for each copy (:attr:`LieGroup.blocks`)."""
+        return (*self.linear.blocks, *((self.width, self.width),) * self.representation.copies)
+
     def _split(self, x: Vector[S]) -> Pair[S]:
         """Split an element x = (y, u) of the algebra, or of its dual, into y and the vector u."""
         return tuple(x[: self.linear.dim]), tuple(x[self.linear.dim :])
@@ -137,7 +142,7 @@ class Semidirect(
         """Return the product g k = (q r, a + rho(q) b) for g = (q, a) and k = (r, b)."""
         (q, a), (r, b) = self._element(g), self._element(k)
         moved = self._each(lambda v: self.representation.act(d, self.linear, q, v), b)
-        return self.linear.mul(d, q, r) + _sum(a, moved)
+        return self.linear.mul(d, q, r) + vector_sum(a, moved)
 
     def inverse(self, d: Domain, g: Vector[S]) -> Vector[S]:
         """Return (q^-1, -rho(q^-1) a) for g = (q, a), with the representation rho."""
@@ -174,7 +179,7 @@ class Semidirect(
         half: S = d.rational(1, 2)
         g = self.linear.require(CayleyMap).cay(d, y)
         turned = self._each(lambda v: self.representation.act(d, self.linear, g, v), u)
-        return g + tuple(half * a for a in _sum(u, turned))
+        return g + tuple(half * a for a in vector_sum(u, turned))
 
     def dcayinv(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
         """Return dcay^{-1}_x y for x = (a, u) and y = (b, v).
@@ -185,9 +190,9 @@ class Semidirect(
         first = self.point_velocity(d, y, u, translated=False)
         # The formula of the docstring has a common subexpression, which is computed first.
         half: S = d.rational(1, 2)
-        moved = _sum(v, tuple(half * c for c in first))
+        moved = vector_sum(v, tuple(half * c for c in first))
         turned = self.point_velocity(d, x, moved, translated=False)
-        tail = _difference(moved, tuple(half * c for c in turned))
+        tail = vector_difference(moved, tuple(half * c for c in turned))
         return self.linear.require(CayleyMap).dcayinv(d, a, b) + tail
 
     def sandwich(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
@@ -210,7 +215,7 @@ class Semidirect(
         (q, a), (y, u) = self._element(g), self._split(x)
         moved = self._each(lambda v: self.representation.translation(d, self.linear, y, v), u)
         ahead = self._each(lambda v: self.representation.act(d, self.linear, q, v), moved)
-        return self.linear.require(BodyFrame).mulexp(d, q, y) + _sum(a, ahead)
+        return self.linear.require(BodyFrame).mulexp(d, q, y) + vector_sum(a, ahead)
 
     def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
         """Return [x, y] for x = (a, u) and y = (b, v).
@@ -230,7 +235,7 @@ class Semidirect(
     def _momentum(self, d: Domain, v: Vector[S], p: Vector[S]) -> Vector[S]:
         """Return the momentum map J(v, p), defined by <J(v, p), x> = <p, x.v> for all x."""
         parts = zip(self._copies(v), self._copies(p), strict=True)
-        return _sum(*(self.representation.momentum(d, self.linear, a, b) for a, b in parts))
+        return vector_sum(*(self.representation.momentum(d, self.linear, a, b) for a, b in parts))
 
     def adt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
         """Return ad*_x mu = (ad*_y m - J(u, p), Y^T p) for x = (y, u) and mu = (m, p).
@@ -239,7 +244,7 @@ class Semidirect(
         """
         (y, u), (m, p) = self._split(x), self._split(mu)
         turned = self._each(lambda a: self.representation.dual_velocity(d, self.linear, y, a), p)
-        return _difference(self.linear.adt(d, y, m), self._momentum(d, u, p)) + turned
+        return vector_difference(self.linear.adt(d, y, m), self._momentum(d, u, p)) + turned
 
     def Ad(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
         """Return Ad_g x for g = (q, a) and x = (y, u).
@@ -250,7 +255,7 @@ class Semidirect(
         (q, a), (y, u) = self._element(g), self._split(x)
         turned = self.linear.Ad(d, q, y)
         moved = self._each(lambda v: self.representation.act(d, self.linear, q, v), u)
-        return turned + _difference(moved, self.point_velocity(d, turned, a, translated=False))
+        return turned + vector_difference(moved, self.point_velocity(d, turned, a, translated=False))
 
     def Adinv(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
         """Return Ad_{g^-1} x for g = (q, a) and x = (y, u).
@@ -269,7 +274,7 @@ class Semidirect(
         Here J is the momentum map, and rho is the representation.
         """
         (q, a), (m, p) = self._element(g), self._split(mu)
-        central = _difference(m, self._momentum(d, a, p))
+        central = vector_difference(m, self._momentum(d, a, p))
         turned = self._each(lambda v: self.representation.dual(d, self.linear, q, v), p)
         return self.linear.Adt(d, q, central) + turned
 
@@ -281,7 +286,7 @@ class Semidirect(
         """
         (q, a), (m, p) = self._element(g), self._split(mu)
         turned = self._each(lambda v: self.representation.dual_inverse(d, self.linear, q, v), p)
-        return _sum(self.linear.Adtinv(d, q, m), self._momentum(d, a, turned)) + turned
+        return vector_sum(self.linear.Adtinv(d, q, m), self._momentum(d, a, turned)) + turned
 
     def dexpt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
         """Return dexp*_x mu for x = (y, u) and mu = (m, p).
@@ -296,8 +301,10 @@ class Semidirect(
         moved = self._each(lambda v: self.representation.translation(d, self.linear, y, v), u)
         pairs = zip(self._copies(u), self._copies(p), strict=True)
         slopes = [self.representation.gradient(d, self.linear, y, a, b) for a, b in pairs]
-        central = self.linear.dexpt(d, y, _difference(m, self._momentum(d, moved, p)))
-        return _sum(central, *(first for first, _ in slopes)) + tuple(q for _, part in slopes for q in part)
+        central = self.linear.dexpt(d, y, vector_difference(m, self._momentum(d, moved, p)))
+        return vector_sum(central, *(first for first, _ in slopes)) + tuple(
+            q for _, part in slopes for q in part
+        )
 
     def series(self, d: Domain, word: Sequence[Factor], dual: bool, x: Vector[S], v: Vector[S]) -> Vector[S]:
         """Return W(ad_x) v, or W(ad*_x) v if ``dual`` is true.
@@ -312,7 +319,7 @@ class Semidirect(
         for k, (a, b) in enumerate(zip(self._copies(u), self._copies(vectors), strict=True)):
             own = none if dual and k else w
             head, tail = rule(d, self.linear, word, (y, a), (own, b))
-            first = _sum(first, head) if dual else head
+            first = vector_sum(first, head) if dual else head
             ends.append(tail)
         return first + tuple(chain.from_iterable(ends))
 
@@ -330,7 +337,7 @@ class Semidirect(
         replaces ad_x. The argument ``total`` has no effect in this class.
         """
         values = [self.series(d, word, dual, x, tuple(f * a for a in v)) for f, word, v in terms]
-        return _sum(*values)
+        return vector_sum(*values)
 
     def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
         """Return the velocity x.g = (y.q, y.a + u) for x = (y, u) and g = (q, a).
@@ -357,7 +364,7 @@ class Semidirect(
         """
         (q, a), (first, w) = self._element(g), self._element(v)
         x = self.linear.require(RightTrivialisation).rate(d, first, q)
-        return x + _difference(w, self.point_velocity(d, x, a, translated=False))
+        return x + vector_difference(w, self.point_velocity(d, x, a, translated=False))
 
     def relations(self, q: Sequence[str]) -> tuple[Relation, ...]:
         """Return ``self.linear.relations(r)`` for q = (r, a) (see :meth:`LeftTranslation.relations`)."""
@@ -377,13 +384,13 @@ class Semidirect(
     def move(self, d: Domain, g: Vector[S], z: Vector[S]) -> Vector[S]:
         """Return the image rho(q) z + a of the point z under g = (q, a), with the representation rho."""
         q, a = self._element(g)
-        return _sum(self._each(lambda v: self.representation.act(d, self.linear, q, v), z), a)
+        return vector_sum(self._each(lambda v: self.representation.act(d, self.linear, q, v), z), a)
 
     def point_velocity(self, d: Domain, x: Vector[S], z: Vector[S], *, translated: bool = True) -> Vector[S]:
         """Return the velocity y.z + u of the point z for x = (y, u), or y.z if ``translated`` is false."""
         y, u = self._split(x)
         turned = self._each(lambda v: self.representation.velocity(d, self.linear, y, v), z)
-        return _sum(turned, u) if translated else turned
+        return vector_sum(turned, u) if translated else turned
 
     @property
     def order(self) -> int:
@@ -485,16 +492,3 @@ class Semidirect(
         plain = {f"{name}{i}" for i in range(self.point_size)}
         letter = "v" if any(s.name in plain for s in own) else ""
         return [*own, *(Symbol(f"{name}{letter}{i}", real=True) for i in range(self.point_size))]
-
-
-def _sum(first: Vector[S], *others: Vector[S]) -> Vector[S]:
-    """Return the sum of vectors."""
-    total = first
-    for other in others:
-        total = tuple(a + b for a, b in zip(total, other, strict=True))
-    return total
-
-
-def _difference(a: Vector[S], b: Vector[S]) -> Vector[S]:
-    """Return a - b."""
-    return tuple(p - q for p, q in zip(a, b, strict=True))

@@ -8,10 +8,14 @@ group exponential and no code of the tested integrators.
 
 from __future__ import annotations
 
+import hashlib
 import math
+import sys
 import time
+from contextlib import suppress
 from dataclasses import dataclass
-from functools import partial
+from functools import cache, partial
+from pathlib import Path
 
 from flint import arb
 
@@ -21,7 +25,6 @@ from codegen.lab.ambient_field import ambient_field
 from codegen.lab.measurement_cache import MeasurementCache, user_cache
 from codegen.lab.number_types import Evaluate, Scalar, Vector
 from codegen.lab.piecewise_field import PiecewiseField, Sided
-from codegen.lab.step_polynomial import MOST_INTERVALS
 from codegen.lab.straight_line_field import velocity
 from codegen.scene.problem import Problem
 from orderconds.ring.precision import precision
@@ -61,6 +64,29 @@ MOST_STEPS = 10_000
 If more steps are necessary, SceneError is raised.
 """
 
+DIVERGES = "extrapolation does not converge; perhaps the field is not smooth near this time"
+UNLIKE = (
+    "the Taylor polynomial of the solution is not accurate even on very short intervals; "
+    "perhaps the field has no power series near this time"
+)
+"""Reasons why no step is possible: the error estimate of the extrapolation is too large, or the step differs
+from its Taylor polynomial (:meth:`codegen.lab.piecewise_field.Sided.stopped`).
+"""
+
+MODULES = (
+    __name__,
+    "codegen.ir.smoothness",
+    "codegen.lab.ambient_field",
+    "codegen.lab.number_functions",
+    "codegen.lab.piecewise_field",
+    "codegen.lab.step_polynomial",
+    "codegen.lab.straight_line_field",
+)
+"""The modules whose formulas and constants determine a reference solution.
+
+A stored solution is used only if these modules have not changed since it was computed.
+"""
+
 
 @dataclass(frozen=True)
 class Reference:
@@ -73,12 +99,17 @@ class Reference:
       orders.
     - ``kinks``: an entry for each point of the solution where the field is not smooth. The entry is the
       number of continuous derivatives of the field at the point, or -1 at a discontinuity.
+    - ``sizes``: for each coordinate, the largest absolute value at the steps of the solution. A coordinate
+      that is 0 at both ends of the time span can be large between them.
+    - ``speeds``: for each coordinate, the largest absolute value of its velocity at the steps.
     """
 
     scene: str
     state: Vector
     uncertainty: float
     kinks: tuple[int, ...] = ()
+    sizes: tuple[float, ...] = ()
+    speeds: tuple[float, ...] = ()
 
     def digits(self, count: int = 30) -> tuple[str, ...]:
         """Return the coordinates in ``state`` as decimal strings with ``count`` significant digits."""
@@ -93,7 +124,27 @@ class _Stored:
 
     state: tuple[str, ...]
     uncertainty: float
-    kinks: tuple[int, ...] = ()
+    kinks: tuple[int, ...]
+    sizes: tuple[float, ...]
+    speeds: tuple[float, ...]
+
+
+class _Peaks:
+    """The largest absolute values of the coordinates and of their velocities at the steps of a solution."""
+
+    def __init__(self, count: int) -> None:
+        self.sizes = self.speeds = (0.0,) * count
+
+    def add(self, field: Evaluate | Sided, y: Vector, t: Scalar) -> None:
+        """Include the state ``y`` at the time ``t``. A velocity that is not defined is omitted."""
+        self.sizes = _larger(self.sizes, y)
+        with suppress(ArithmeticError, ValueError):
+            self.speeds = _larger(self.speeds, field(y, t))
+
+
+def _larger(peaks: tuple[float, ...], values: Vector) -> tuple[float, ...]:
+    sizes = [abs(float(x)) for x in values]
+    return tuple(max(a, b) if math.isfinite(b) else a for a, b in zip(peaks, sizes, strict=True))
 
 
 def cached_reference(
@@ -107,13 +158,13 @@ def cached_reference(
 
     def compute() -> _Stored:
         computed = reference(scene, end)
-        return _Stored(computed.digits(DIGITS), computed.uncertainty, computed.kinks)
+        more = computed.kinks, computed.sizes, computed.speeds
+        return _Stored(computed.digits(DIGITS), computed.uncertainty, *more)
 
     stored = (cache or user_cache()).get(_key(scene), _Stored, compute)
     context = PreciseDomain(0, DIGITS).context
-    return Reference(
-        scene.name, tuple(map(context.mpf, stored.state)), stored.uncertainty, tuple(stored.kinks)
-    )
+    state = tuple(map(context.mpf, stored.state))
+    return Reference(scene.name, state, stored.uncertainty, stored.kinks, stored.sizes, stored.speeds)
 
 
 def _key(scene: Problem) -> tuple[object, ...]:
@@ -127,8 +178,15 @@ def _key(scene: Problem) -> tuple[object, ...]:
         [x.text() for x in field.constants],
         [str(x) for x in start],
         [str(x) for x in scene.span],
-        (AGREEMENT, BITS, DIGITS, RUNS, MOST_INTERVALS),
+        _digest(),
     )
+
+
+@cache
+def _digest() -> str:
+    """Return a digest of the texts of :data:`MODULES`."""
+    texts = (Path(str(sys.modules[name].__file__)).read_bytes() for name in MODULES)
+    return hashlib.sha256(b"\0".join(texts)).hexdigest()
 
 
 def reference(scene: Problem, end: float = math.inf) -> Reference:
@@ -139,7 +197,9 @@ def reference(scene: Problem, end: float = math.inf) -> Reference:
     Raises :class:`codegen.errors.SceneError` if the equation cannot be solved, if the two solutions do not
     agree to 28 digits, or if the deadline passes.
     """
-    (checked, _), (answer, kinks) = (_end(scene, columns, exponent, end) for columns, exponent in RUNS)
+    (checked, *_), (answer, kinks, peaks) = (
+        _end(scene, columns, exponent, end) for columns, exponent in RUNS
+    )
     size = max(1.0, *(float(abs(x)) for x in answer))
     gap = max(float(abs(a - b)) for a, b in zip(checked, answer, strict=True))
     if not gap <= AGREEMENT * size:
@@ -149,11 +209,13 @@ def reference(scene: Problem, end: float = math.inf) -> Reference:
             expected=f"agreement to {AGREEMENT:g}",
             hint="perhaps the field is not smooth; shorten the span, or remove discontinuities of the field",
         )
-    return Reference(scene.name, answer, gap, kinks)
+    return Reference(scene.name, answer, gap, kinks, peaks.sizes, peaks.speeds)
 
 
-def _end(scene: Problem, columns: int, exponent: int, finish: float) -> tuple[Vector, tuple[int, ...]]:
-    """Return the state at the end of the time span, and the attribute ``kinks`` of :class:`Reference`.
+def _end(
+    scene: Problem, columns: int, exponent: int, finish: float
+) -> tuple[Vector, tuple[int, ...], _Peaks]:
+    """Return the state at the end of the time span, the attribute ``kinks`` of :class:`Reference`, and peaks.
 
     The tolerance is 10^``exponent``.
     Raises SceneError if ``time.monotonic()`` exceeds ``finish`` before the computation ends.
@@ -163,42 +225,44 @@ def _end(scene: Problem, columns: int, exponent: int, finish: float) -> tuple[Ve
         piecewise = PiecewiseField(scene)
         y = tuple(arb(context.context.nstr(x, DIGITS + 5)).mid() for x in scene.initial(context))
         smooth = None if piecewise.nodes else ambient_field(scene)
-        final, kinks = _integrate(scene, smooth or Sided(piecewise), y, columns, 10.0**exponent, finish)
-        return tuple(context.context.mpf(x.str(DIGITS + 5, radius=False)) for x in final), kinks
+        peaks, field = _Peaks(len(y)), smooth or Sided(piecewise)
+        final = _integrate(scene, field, y, columns, 10.0**exponent, finish, peaks)
+        kinks = tuple(field.kinks) if isinstance(field, Sided) else ()
+        return tuple(context.context.mpf(x.str(DIGITS + 5, radius=False)) for x in final), kinks, peaks
 
 
 def _integrate(
-    scene: Problem, field: Evaluate | Sided, y: Vector, columns: int, tolerance: float, finish: float
-) -> tuple[Vector, tuple[int, ...]]:
-    """Return the state at the end of the time span, and the attribute ``kinks`` of :class:`Reference`.
+    scene: Problem,
+    field: Evaluate | Sided,
+    y: Vector,
+    columns: int,
+    tolerance: float,
+    finish: float,
+    peaks: _Peaks,
+) -> Vector:
+    """Return the state at the end of the time span, and add the states of all steps to ``peaks``.
 
     Raises SceneError if ``time.monotonic()`` exceeds ``finish`` before the computation ends.
     """
     t, end = (arb(x.numerator) / x.denominator for x in scene.span)
     whole = float(end - t)
     step = whole / 8
-    reason = "extrapolation does not converge; perhaps the field is not smooth near this time"
+    reason = DIVERGES
     sided = field if isinstance(field, Sided) else None
     if sided is not None:
         sided.begin(y, t)
     for _ in range(MOST_STEPS):
+        peaks.add(field, y, t)
         if step <= whole * LEAST_STEP:
             break
-        if time.monotonic() > finish:
-            raise SceneError(
-                "the reference solution takes too long",
-                where=scene.name,
-                expected="a reference solution within the time limit",
-                hint="allow more time, or shorten the span",
-            )
+        _check_clock(scene, finish)
         left = (end - t).mid()
         last = arb(step) >= left
         length = left if last else arb(step)
         try:
             new, error = _extrapolate(field, y, t, length, columns)
-        except (
-            ArithmeticError
-        ) as failure:  # A long trial step can produce a state at which the field is not defined.
+        except ArithmeticError as failure:
+            # A long trial step can produce a state at which the field is not defined.
             reason, step = str(failure), step / 5
             continue
         size = max(1.0, *(abs(float(x)) for x in new))
@@ -207,11 +271,16 @@ def _integrate(
                 stopped = sided.stopped(y, t, new, length, partial(_extrapolate, columns=columns))
                 if stopped is not None:
                     t, y, step = stopped
+                    if step < float(length):
+                        reason = UNLIKE
                     continue
-            t, y = (t + step).mid(), new
+            t, y = (t + length).mid(), new
             if last:
-                return y, () if sided is None else tuple(sided.kinks)
+                peaks.add(field, y, t)
+                return y
         # The error estimate is proportional to step^p with p = 2 * columns - 1.
+        else:
+            reason = DIVERGES
         ratio = (tolerance * size / error) ** (1 / (2 * columns - 1)) if error else 4.0
         step = min(step, float(left)) * max(0.2, min(4.0, 0.9 * ratio))
     else:
@@ -222,6 +291,17 @@ def _integrate(
         expected="a field that is smooth and not stiff over the span",
         hint="choose a span that ends before this time",
     )
+
+
+def _check_clock(scene: Problem, finish: float) -> None:
+    """Raise SceneError if ``time.monotonic()`` exceeds ``finish``."""
+    if time.monotonic() > finish:
+        raise SceneError(
+            "the reference solution takes too long",
+            where=scene.name,
+            expected="a reference solution within the time limit",
+            hint="allow more time, or shorten the span",
+        )
 
 
 def _extrapolate(

@@ -207,6 +207,9 @@ class _Signs:
                         "(x = 0 for abs(x))"
                     )
                 negative = True
+            elif not ends[k] >= -self.limits[k]:
+                # The error bound of the value at t + b is too large to determine the sign.
+                return None
         return negative
 
     def _negative_possible(self, state: Vector, t: Scalar) -> list[int]:

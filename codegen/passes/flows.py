@@ -10,23 +10,26 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cache
-from itertools import combinations
+from itertools import combinations, product
 
-from codegen.ir.domain import Value
 from codegen.ir.operations import Advance
 from codegen.ir.program import Assign, Program
+from codegen.ir.rounding_domain import Sized
 from codegen.ir.scene_operations import FlowOf
 from codegen.ir.values import Coefficient, Kind, Var
-from codegen.scene.orbit import orbit_of
+from codegen.scene.orbit import orbit_of, varied
 from codegen.scene.problem import Problem
 
 TYPICAL_STEPS = 16
 """A number that determines the durations for the test whether two flows commute.
 
 The durations are about T/TYPICAL_STEPS, where T is the length of the time span of the scene. The choice of
-the number is not critical: except by coincidence (for example, if a rotation makes a full turn), flows that
-commute over one duration commute over all durations.
+the number is not critical: flows that commute over the tested durations commute over all durations
+(:func:`commuting`).
 """
+
+SHARES = Fraction(2, 7), Fraction(3, 7)
+"""The shorter durations of the two flows, divided by T/TYPICAL_STEPS."""
 
 
 @dataclass(frozen=True)
@@ -117,6 +120,11 @@ def commuting(scene: Problem) -> Callable[[str, str], bool]:
     """Return a function with two arguments: the names of two parts of the Hamiltonian.
 
     The function returns True if the flows of the two parts commute.
+
+    The test uses two durations of each flow, whose ratio is sqrt(2). One duration is not sufficient: a flow
+    that makes a full turn in this duration is then the identity, and commutes with all flows. For a fixed
+    duration of one flow, the durations of the other flow for which both commute form a closed subgroup of the
+    real numbers. A closed subgroup that contains two numbers with an irrational ratio contains all numbers.
     """
     orbit = orbit_of(scene)
     d = orbit.domain
@@ -124,35 +132,38 @@ def commuting(scene: Problem) -> Callable[[str, str], bool]:
     # with the state after the second flow and then the first flow. The durations are proportional to the time
     # span of the scene. If the durations were much shorter, the two states could agree up to rounding errors
     # although the flows do not commute.
-    first, last = scene.span
-    unit = abs(last - first) / TYPICAL_STEPS or Fraction(1)
+    begin, end = scene.span
+    unit = abs(end - begin) / TYPICAL_STEPS or Fraction(1)
+    shorter = [d.rational(*(unit * share).as_integer_ratio()) for share in SHARES]
+    ratio = d.call("sqrt", d.rational(2))
+    durations = list(product(*((tau, tau * ratio) for tau in shorter)))
+    # Flows can commute for the default values of run-time parameters only.
+    problems = (scene, varied(scene)) if scene.runtime else (scene,)
 
-    def moved(point: dict[str, Value], parts: Sequence[tuple[str, Value]]) -> tuple[Value, ...]:
+    def moved(problem: Problem, point: dict[str, Sized], parts: Sequence[tuple[str, Sized]]) -> list[Sized]:
         state = tuple(tuple(point[s] for s in block.symbols) for block in scene.state)
         for part, tau in parts:
-            state = scene.flow(d, part, tau, (*state, point["t"]))
-        return tuple(x for block in state for x in block)
+            state = problem.flow(d, part, tau, (*state, point["t"]))
+        return [x for block in state for x in block]
+
+    def agree(
+        problem: Problem, point: dict[str, Sized], one: tuple[str, Sized], two: tuple[str, Sized]
+    ) -> bool:
+        # The flows are applied in both orders, and ``ends`` contains the two resulting states.
+        try:
+            ends = moved(problem, point, (one, two)), moved(problem, point, (two, one))
+        except (ArithmeticError, ValueError):
+            # If a flow cannot be evaluated at a sample point, the flows are treated as not commuting.
+            return False
+        return all(orbit.sized(x - y, (x, y)) for x, y in zip(*ends, strict=True))
 
     @cache
-    def same(pair: tuple[str, str]) -> bool:
-        # The flows of the two parts are applied in both orders, and ``ends`` contains the two resulting
-        # states. The two states are compared to test if the flows commute. The durations of the two flows are
-        # 2/7 and 3/7 of ``unit``.
-        first, second = (
-            (part, d.rational(*(unit * (k + 2) / 7).as_integer_ratio())) for k, part in enumerate(pair)
-        )
-        for point in orbit.points:
-            try:
-                ends = moved(point, (first, second)), moved(point, (second, first))
-            except (ArithmeticError, ValueError):
-                # If a flow cannot be evaluated at a sample point, the flows are treated as not commuting.
-                return False
-            if not all(orbit.sized(x - y, (x, y)) for x, y in zip(*ends, strict=True)):
-                return False
-        return True
+    def same(a: str, b: str) -> bool:
+        cases = product(problems, durations, orbit.points)
+        return all(agree(problem, point, (a, s), (b, t)) for problem, (s, t), point in cases)
 
     # The order of a and b does not matter, so (a, b) and (b, a) share one cached comparison.
-    return lambda a, b: a == b or same((a, b) if a < b else (b, a))
+    return lambda a, b: a == b or same(*sorted((a, b)))
 
 
 def apart(letters: Sequence[Letter], commute: Callable[[str, str], bool]) -> tuple[str, ...]:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import random
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 
@@ -48,6 +48,8 @@ class Orbit:
     """A problem y' = f(y).y, and sample points on the orbit of its initial state.
 
     ``symbols`` are the coordinates, ``start`` is the initial state, and ``roots`` are the components of f.
+    ``parameters`` are the values of the parameters at the initial state and near it, and ``others`` are their
+    values at all other sample points. Only the values of run-time parameters differ (:func:`varied`).
     For a Hamiltonian problem, y is (q, mu), and the group T*G acts on itself by left multiplication.
     """
 
@@ -59,6 +61,7 @@ class Orbit:
     roots: tuple[Expr, ...]
     span: tuple[Fraction, Fraction]
     parameters: Mapping[str, Number]
+    others: Mapping[str, Number]
 
     @cached_property
     def domain(self) -> RoundingDomain:
@@ -74,13 +77,15 @@ class Orbit:
         initial state.
         """
         d, rng = self.domain, random.Random("orbit")
-        constants = {name: d.number(x) for name, x in self.parameters.items()}
+        constants, others = (
+            {name: d.number(x) for name, x in values.items()} for values in (self.parameters, self.others)
+        )
         y0 = self._start(constants)
         points: list[dict[str, Sized]] = []
         for k in range(POINTS):
             x = tuple(d.rational(rng.randint(-99, 99), 100) for _ in range(self.group.dim))
             y = self.action.act(d, self.group, self.group.exp(d, x), y0) if k else y0
-            values = self._at(y, Fraction(k, POINTS), constants)
+            values = self._at(y, Fraction(k, POINTS), others if k else constants)
             if self._finite(self.values(self.roots, values)):
                 points.append(values)
             elif not k:
@@ -186,5 +191,19 @@ def orbit_of(problem: Problem) -> Orbit:
     start = tuple(e for block in field.state for e in block.initial)
     return Orbit(
         *(field.name, field.group, field.action, field.symbols, start),
-        *(field.roots, field.span, field.parameters),
+        *(field.roots, field.span, field.parameters, varied(field).parameters),
     )
+
+
+def varied(problem: Problem) -> Problem:
+    """Return a copy of a problem in which each run-time parameter has another value.
+
+    A formula can have a property only for the default value of a run-time parameter. For example, k q^4 does
+    not depend on q if k is 0. Emitted code needs properties that hold for all values.
+    """
+    rng, values = random.Random("parameters"), dict(problem.parameters)
+    for name in problem.runtime:
+        share, value = Number.rational(rng.randint(1, 99), 1000), values[name]
+        # The value keeps its sign and its size, because formulas may be undefined for other values.
+        values[name] = share if value.is_zero else value - value * share
+    return replace(problem, parameters=values)

@@ -64,8 +64,8 @@ class Recommendation:
     - ``places``: for each successful recipe, the fastest run with at most the required error. Fast runs
       come first.
     - ``best``: if no recipe is successful, the most accurate run of a recipe that meets ``request.needs`` and
-      ``request.stack``, or None if no measured recipe meets them. The test in a long run is ignored, so the
-      recipe can be in ``lost``. If ``places`` contains a run, ``best`` is not needed and is None.
+      ``request.stack`` and is not in ``lost``, or None if there is no such run. If ``places`` contains a run,
+      ``best`` is not needed and is None.
     - ``predicted``: the number of pairs (method, form of the equations) whose CPU time was predicted.
     - ``raced``: the number of measured recipes.
     - ``seconds``: the time of the search in seconds.
@@ -144,7 +144,11 @@ def recommend(request: Request, progress: Progress = str) -> Recommendation:
     search = Search(request.task, (request.goal,), progress)
     search.run()
     places, lost = search.leaders(request.goal)
-    runs = [r for r in search.results[request.error].values() if request.goal.met(r.entry.features)]
+    runs = [
+        r
+        for r in search.results[request.error].values()
+        if request.goal.met(r.entry.features) and r.entry.recipe.label not in lost
+    ]
     return Recommendation(
         request,
         tuple(places),

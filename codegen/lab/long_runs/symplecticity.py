@@ -13,8 +13,9 @@ bracket. The formula is eq. (2.26) of H. Marthinsen, *Lie group integrators*.
 
 Each direction of the tangent space is measured in a scale of its own (:class:`_Scales`), and the increments
 of the finite differences are proportional to these scales. Therefore the defect does not depend on the units
-of length, mass and time if all coordinates of the group element have the same unit, and all coordinates of
-the momentum have the same unit. On SE(3), for example, the units differ, and the defect depends on them.
+of length, mass and time if all coordinates of a block of the group element have the same unit, and all
+coordinates of a block of the momentum have the same unit (:attr:`codegen.groups.base.LieGroup.blocks`). The
+blocks of SE(3), for example, are the rotations and the translations.
 """
 
 from __future__ import annotations
@@ -22,6 +23,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import accumulate
 from typing import TYPE_CHECKING
 
 from codegen.emitter import Compiled
@@ -173,9 +175,16 @@ def _scales(
     ``elements`` contains the coordinates q of the group element before and after the step, and ``momenta``
     contains the momentum mu before and after the step.
 
+    The coordinates are divided into blocks (:attr:`codegen.groups.base.LieGroup.blocks`), because the
+    coordinates of different blocks can have different units.
+
     - Let e be a basis element of the Lie algebra. Let v be the derivative of exp(s e) q with respect to s at
-      s = 0. The scale of the coordinate of xi in the direction e is |q|/|v|.
-    - The scale ``action`` is |mu|, multiplied by the largest scale of a coordinate of xi.
+      s = 0. The scale of the coordinate of xi in the direction e is the smallest quotient |q|/|v| of the
+      blocks of q and v.
+    - The scale ``action`` is the largest product of |mu| and the largest scale of a coordinate of xi in the
+      same block.
+    - If e moves only blocks of q that are zero, the scale in the direction e is ``action`` divided by |mu| in
+      the block of e. If this block of mu is zero, too, the scale is the largest of the other scales.
 
     The norms |q|, |v| and |mu| are computed before and after the step. For each norm, the larger of the two
     values is used, because q or mu can be zero before or after the step.
@@ -183,19 +192,35 @@ def _scales(
     Raises ArithmeticError if q is zero before and after the step, or if mu is zero before and after the step.
     """
     group, context = compiled.scene.group, domain.context
-    size = max(map(context.norm, elements))
-    momentum = max(map(context.norm, momenta))
-    if not size or not momentum:
-        what = "momentum" if size else "position"
+    dims, parts = zip(*group.blocks, strict=True)
+    place = [b for b, n in enumerate(dims) for _ in range(n)]
+    sizes, momenta_of = _norms(context, elements, parts), _norms(context, momenta, dims)
+    if not any(sizes) or not any(momenta_of):
+        what = "momentum" if any(sizes) else "position"
         raise ArithmeticError(
             f"the symplectic defect is measured relative to the {what}, "
             "which is zero before and after the step"
         )
-    positions = []
-    for e in _basis(group.dim, domain):
-        speeds = [context.norm(group.velocity(domain, e, q)) for q in elements]
-        positions.append(size / max(speeds))
-    return _Scales(tuple(positions), max(positions) * momentum)
+    known: dict[int, Scalar] = {}
+    for k, e in enumerate(_basis(group.dim, domain)):
+        speeds = _norms(context, [group.velocity(domain, e, q) for q in elements], parts)
+        quotients = [q / v for q, v in zip(sizes, speeds, strict=True) if q and v]
+        if quotients:
+            known[k] = min(quotients)
+    largest = max(known.values())
+    action = max(known[k] * momenta_of[place[k]] for k in known)
+    if not action:
+        action = largest * max(momenta_of)
+    positions = (
+        known.get(k) or (action / momenta_of[b] if momenta_of[b] else largest) for k, b in enumerate(place)
+    )
+    return _Scales(tuple(positions), action)
+
+
+def _norms(context: mpmath.ctx_mp.MPContext, vectors: Sequence[Vector], sizes: Sequence[int]) -> list[Scalar]:
+    """Return for each block of coordinates the largest norm of this block in ``vectors``."""
+    ends = list(accumulate(sizes))
+    return [max(context.norm(v[end - n : end]) for v in vectors) for n, end in zip(sizes, ends, strict=True)]
 
 
 def _tangent_map(

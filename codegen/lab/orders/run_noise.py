@@ -27,11 +27,10 @@ class Noise:
     - ``epsilon``: the machine epsilon.
     - ``time``: the largest absolute value of the time, or 0 if the field does not depend on the time.
     - ``speeds``: for each coordinate, the largest absolute value of its velocity at the two ends of the time
-      span.
+      span and at the steps of the reference solution.
     - ``sizes``: for each coordinate, the larger of two numbers. The first number is the largest absolute
-      value of the coordinate at the two ends. The second number is the entry of ``speeds`` times the length
-      of the span. The second number is needed because a coordinate that is 0 at both ends can be large
-      between them.
+      value of the coordinate at the two ends and at the steps of the reference solution. The second number is
+      the largest absolute value of its velocity at the two ends, times the length of the span.
     """
 
     epsilon: float
@@ -45,10 +44,12 @@ class Noise:
         first, last = map(float, scene.span)
         ends = [(tuple(scene.initial(FloatDomain(0.0))), first), (tuple(map(float, exact.state)), last)]
         values = [max(abs(state[k]) for state, _ in ends) for k in range(len(exact.state))]
+        values = list(map(max, values, exact.sizes or values))
         speeds = [0.0] * len(values)
         for state, t in ends:
             speeds = [max(a, b) for a, b in zip(speeds, _speeds(scene, state, t), strict=True)]
         sizes = [max(x, v * abs(last - first)) for x, v in zip(values, speeds, strict=True)]
+        speeds = list(map(max, speeds, exact.speeds or speeds))
         time = 0.0 if scene.autonomous else max(abs(first), abs(last))
         return cls(epsilon, time, tuple(sizes), tuple(speeds))
 

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import ast
+import sys
 from collections.abc import Callable
+from pathlib import Path
 
 import mpmath
 import pytest
-from sympy import Matrix, Rational, exp, sqrt, symbols
+from sympy import Abs, Matrix, Rational, exp, sqrt, symbols
 
 from codegen.errors import SceneError
 from codegen.groups import LeftMultiplication, Rn
+from codegen.lab import piecewise_field
 from codegen.lab import reference as references
 from codegen.lab.reference import Reference, reference
 from codegen.scene import FieldScene
@@ -126,3 +130,41 @@ def test_toda_lattice_in_flaschka_variables_has_a_reference() -> None:
     found = reference(scene(field, start, (0, 1)))
     assert found.state[1] == 0
     assert abs(sum(found.state[2:])) < 1e-30
+
+
+def test_a_step_that_differs_from_its_taylor_polynomial_is_the_stated_reason(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """No step agrees with its polynomial, so each attempt halves the step."""
+    monkeypatch.setattr(piecewise_field, "VANISHING", 0.0)
+    with pytest.raises(SceneError, match="the Taylor polynomial of the solution is not accurate"):
+        reference(scene(lambda y: Matrix([1 + Abs(y[0])]), [1], (0, 1)))
+
+
+@pytest.mark.parametrize("name", references.MODULES)
+def test_a_change_of_a_module_of_the_reference_makes_stored_solutions_invalid(
+    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    own = Path(str(sys.modules[name].__file__))
+    changed = tmp_path / own.name
+    changed.write_text(own.read_text() + "CONSTANT = 1\n")
+    decay = scene(lambda y: Matrix([-y[0]]), [1], (0, 1))
+    references._digest.cache_clear()
+    before = references._key(decay)
+    monkeypatch.setattr(sys.modules[name], "__file__", str(changed))
+    references._digest.cache_clear()
+    after = references._key(decay)
+    references._digest.cache_clear()
+    assert before != after
+
+
+def test_the_modules_of_the_reference_are_all_modules_of_the_lab_that_it_imports() -> None:
+    """The cache and the names of types do not change a solution."""
+    others = {"codegen.lab.measurement_cache", "codegen.lab.number_types"}
+    imported = {
+        node.module
+        for name in references.MODULES
+        for node in ast.walk(ast.parse(Path(str(sys.modules[name].__file__)).read_text()))
+        if isinstance(node, ast.ImportFrom) and node.module
+    }
+    assert {m for m in imported if m.startswith("codegen.lab.")} - others <= set(references.MODULES)

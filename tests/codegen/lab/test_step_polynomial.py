@@ -51,6 +51,29 @@ def test_a_function_that_touches_zero_does_not_become_negative() -> None:
         assert polynomial().first_exit(touching, touching, arb("0.8")) is None
 
 
+@pytest.mark.parametrize("radius", [1e-29, 1e-20, 1e-10, float("nan")])
+def test_a_value_of_uncertain_sign_at_the_end_is_not_proved_to_be_non_negative(radius: float) -> None:
+    # The ball of the value at the end of the step contains numbers of both signs.
+    def uncertain(y: Vector, t: Scalar) -> Vector:
+        return (y[0] - arb("0.8").cos() + arb(0, radius),)
+
+    with precision(BITS), pytest.raises(Undecided):
+        polynomial().first_exit(uncertain, uncertain, arb("0.8"))
+
+
+def test_a_change_of_sign_before_an_uncertain_end_is_found() -> None:
+    # The function is negative from t = acos(0.9) on, and its error bound at the end of the step is 1.
+    def uncertain(y: Vector, t: Scalar) -> Vector:
+        ends = not isinstance(t, arb_series) and t.contains(arb("0.8"))
+        return (y[0] - arb("0.9") + arb(0, 1 if ends else 0),)
+
+    with precision(BITS):
+        bracket = polynomial().first_exit(uncertain, uncertain, arb("0.8"))
+        assert bracket is not None
+        a, b = bracket
+        assert a < arb("0.9").acos() < b < arb("0.8")
+
+
 def test_a_function_that_oscillates_without_end_is_undecided() -> None:
     def wild(y: Vector, t: Scalar) -> Vector:
         z = t - arb(1) / 3

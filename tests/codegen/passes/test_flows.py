@@ -5,14 +5,17 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
-from sympy import Matrix, diag
+from sympy import Matrix, N, Rational, diag, pi
 
 from codegen import scenes
 from codegen.flows.kick import Kick
+from codegen.groups import Rn
 from codegen.ir.values import Coefficient
 from codegen.lower import lower, problem_for
 from codegen.method import Method
 from codegen.passes import flows, optimise
+from codegen.scene import HamiltonianScene, param
+from codegen.scene.run_time import with_runtime
 from tests.strategies import shipped, top_scene
 
 
@@ -86,3 +89,32 @@ def test_flows_of_one_group_commute_where_their_brackets_vanish():
     view = problem_for(scene, Method("splitting", shipped("strang")))
     assert isinstance(view.flows["V"], Kick)
     assert flows.commuting(view)("T.mean", "T.turn")
+
+
+STRANG = Method("splitting", shipped("strang"))
+
+
+def anharmonic(rate, strength=1, span=2):
+    """H = rate (q^2 + p^2) + strength q^4 / 4 on T*R."""
+    q, p = Rn(1).point("q"), Rn(1).dual("p")
+    A, V = rate * (q[0] ** 2 + p[0] ** 2), strength * q[0] ** 4 / 4
+    parts = {"A": A, "V": V}
+    return HamiltonianScene(
+        group=Rn(1), q=q, mu=p, H=A + V, parts=parts, q0=[1], mu0=Matrix([0]), span=(0, span)
+    )
+
+
+@pytest.mark.parametrize("turns", [1, 2, 3, 12])
+@pytest.mark.parametrize("share", flows.SHARES)
+def test_a_flow_that_makes_full_turns_in_a_tested_duration_does_not_commute(share, turns):
+    """The period of A is 1. The pass joined the two kicks of Strang's splitting."""
+    scene = anharmonic(Rational(str(N(pi, 45))), span=flows.TYPICAL_STEPS * turns / share)
+    view, program, gathered = spelled(scene, STRANG)
+    assert not flows.commuting(view)("A", "V")
+    assert gathered == program
+
+
+def test_flows_that_commute_for_the_default_of_a_run_time_parameter_only_are_not_joined():
+    scene = anharmonic(Rational(1, 2), strength=param("k", 0))
+    assert flows.commuting(problem_for(scene, STRANG))("A", "V")
+    assert not flows.commuting(problem_for(with_runtime(scene, ("k",)), STRANG))("A", "V")

@@ -8,8 +8,9 @@ from sympy import Matrix, Rational, log, symbols
 from codegen.errors import SceneError
 from codegen.groups import LeftMultiplication, Rn
 from codegen.ir.number import Number
-from codegen.scene import FieldScene
+from codegen.scene import FieldScene, param
 from codegen.scene.orbit import NEAR, POINTS, orbit_of
+from codegen.scene.run_time import with_runtime
 from tests.strategies import field_scene, hamiltonian_scene
 
 y = Matrix(symbols("y0:2", real=True))
@@ -77,3 +78,12 @@ def test_some_points_are_near_the_initial_state_in_the_units_of_the_scene():
     orbit = orbit_of(plane([y[1], -y[0]], y0=(Rational(1, 10**30), 0)))
     for point in orbit.points[POINTS:]:
         assert all(0 < abs(point[s].value) < 1e-29 for s in orbit.symbols)
+
+
+def test_a_formula_that_vanishes_for_the_default_of_a_run_time_parameter_only_does_not_vanish():
+    x, k = symbols("x", real=True), param("k", 0)
+    problem = FieldScene(
+        group=Rn(1), action=LeftMultiplication(), y=[x], f=[k * x], y0=[1], span=(0, 1), name="s"
+    )
+    assert orbit_of(problem).vanish(problem.roots)
+    assert not orbit_of(with_runtime(problem, ("k",))).vanish(problem.roots)

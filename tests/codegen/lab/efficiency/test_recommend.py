@@ -11,7 +11,7 @@ from types import SimpleNamespace
 import pytest
 
 from codegen import scenes
-from codegen.commands.recommend import searched
+from codegen.commands.recommend import searched, unreached
 from codegen.emitter import compile_method
 from codegen.errors import SceneError
 from codegen.ir.program import Solve
@@ -131,6 +131,7 @@ def test_a_method_that_loses_a_conserved_quantity_is_not_recommended_for_long_ti
     nothing = recommend(Request(SCENE, 1e-4, ("symplectic",), tableaux=FEW))
     assert first in nothing.lost
     assert not nothing.places
+    assert nothing.best is None or nothing.best.entry.recipe.label not in nothing.lost
 
 
 @pytest.mark.slow
@@ -152,6 +153,17 @@ def test_shorter_steps_are_tried_if_a_long_run_loses_a_conserved_quantity(
     assert not kept.lost
     assert kept.places[0].steps == 4 * steps[kept.places[0].entry.recipe]
     assert kept.places[0].error < free.places[0].error
+
+
+def test_a_method_that_fails_the_long_run_is_not_the_most_accurate_one(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(search.Search, "_loses", lambda s, r, n: True)
+    found = recommend(Request(SCENE, 1e-3, ("symplectic",), tableaux=("midpoint",)))
+    assert found.lost
+    assert found.as_json()["recommended"] is None
+    assert found.as_json()["most_accurate"] is None
+    assert "loses a conserved quantity in a long run" in unreached(found)
 
 
 def test_an_error_that_nothing_reaches_gives_the_most_accurate_run() -> None:

@@ -8,7 +8,7 @@ import pytest
 from sympy import Expr, Integer, Matrix, Rational, diag, sqrt
 
 from codegen.emitter import compile_method
-from codegen.groups import SO3, Rn
+from codegen.groups import SE3, SO3, Rn
 from codegen.lab.long_runs.long_run import long_run
 from codegen.lab.long_runs.properties import SYMPLECTIC, properties
 from codegen.lab.long_runs.symplecticity import symplectic_defect
@@ -71,6 +71,24 @@ def top(mass: Expr, length: Expr) -> Problem:
     )
 
 
+def rigid(mass: Expr, length: Expr, offset: int = 1) -> Problem:
+    """A rigid body in space, whose centre of mass is held by a spring and begins at ``offset`` lengths."""
+    G = SE3()
+    g, mu = G.point("g"), G.dual("mu")
+    R, a, m, p = Matrix(3, 3, g[:9]), Matrix(g[9:]), Matrix(mu[:3]), Matrix(mu[3:])
+    action, body = mass * length**2, R.T * (m - a.cross(p))
+    kinetic = body.dot(diag(1, 2, 3).inv() * body) / (2 * action) + p.dot(p) / (4 * mass)
+    H = kinetic + mass * a.dot(a) / 4 + action * R[2, 0]
+    q0 = [*Matrix.eye(3), offset * length, 0, 0]
+    return HamiltonianScene(
+        group=G, q=g, mu=mu, H=H, q0=q0, mu0=[action, 0, action, 0, mass * length, 0], span=(0, 1)
+    )
+
+
+def rigid_at_the_origin(mass: Expr, length: Expr) -> Problem:
+    return rigid(mass, length, offset=0)
+
+
 def defect(scene: Problem, method: str, h: float) -> float:
     made = compile_method(scene, method)
     return symplectic_defect(made, Emitted(made).initial, h)
@@ -89,6 +107,16 @@ def test_the_defect_of_other_steps_is_the_same_in_all_units(scene: Make) -> None
     assert SYMPLECTIC < known < 1e-6
     for units in UNITS[1:]:
         assert defect(scene(*units), "rkmk(2):rk4", 0.01) == pytest.approx(known, rel=1e-9)
+
+
+@pytest.mark.parametrize("scene", [rigid, rigid_at_the_origin])
+def test_rotations_and_translations_have_units_of_their_own(scene: Make) -> None:
+    """The defect was proportional to the unit of length if this unit is small."""
+    known, small = (
+        defect(scene(Integer(1), x), "rkmk(0):rk4", 0.01) for x in (Integer(1), Integer(10) ** 12)
+    )
+    assert known > SYMPLECTIC
+    assert small == pytest.approx(known, rel=1e-9)
 
 
 def test_short_steps_of_other_methods_do_not_count_as_symplectic() -> None:

@@ -80,3 +80,15 @@ def test_a_coordinate_that_vanishes_at_both_ends_has_the_size_of_its_motion() ->
     noise = Noise.of(problem, reference(problem), 2.0**-52)
     assert noise.sizes[0] == pytest.approx(2.0)
     assert noise.of_state(10, [1.0, 0.0]) == pytest.approx(20 * 2.0**-52)
+
+
+def test_rounding_errors_of_a_coordinate_that_rests_at_zero_at_both_ends_are_rounding_errors() -> None:
+    """x = 10^12 (t (2 - t)/2)^2 and its velocity vanish at both ends."""
+    problem = scene([10**12 * t * (2 - t) * (1 - t), -y / 1000], [0, 1])
+    exact = reference(problem)
+    noise = Noise.of(problem, exact, 2.0**-52)
+    assert noise.sizes[0] == pytest.approx(0.25e12, rel=0.3)
+    assert noise.speeds[0] == pytest.approx(0.385e12, rel=0.3)
+    found = measured(problem)
+    assert found.verdict == "undecided"
+    assert all(run.excluded for run in found.refinement.runs)
