@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import click
+from click.core import ParameterSource
 
 from orderconds.argument import DIGITS
 from orderconds.commands import screen
 from orderconds.commands.tableau_output import output_format, put_tableau, tableau_output
+from orderconds.errors import InputError
 from orderconds.tableau import Tableau, dumps
 
 UNKNOWN = (
@@ -24,14 +26,15 @@ UNKNOWN = (
     type=click.IntRange(*DIGITS),
     default=60,
     show_default=True,
-    help="The number of decimal places of the new coefficients.",
+    help="The number of decimal places of the new coefficients. This option requires a [proof] table.",
 )
 @tableau_output
 @click.option(
     "--json",
     "as_json",
     is_flag=True,
-    help="Print one JSON record on stdout. It contains the new coefficients and the proof.",
+    help="Print one JSON record on stdout. It contains the new coefficients and the proof. The proof is null "
+    "if FILE has no [proof] table.",
 )
 def command(file: str, digits: int, output: str | None, as_json: bool) -> int:
     """Make the coefficients of FILE exact or more precise.
@@ -63,6 +66,12 @@ def command(file: str, digits: int, output: str | None, as_json: bool) -> int:
     to = output_format(output)
     tableau = read(file)
     if tableau.proof is None:
+        if click.get_current_context().get_parameter_source("digits") is ParameterSource.COMMANDLINE:
+            raise InputError(
+                "the file has no [proof] table, which names the equations for more digits",
+                where=f"{file}, --digits",
+                expected="a [proof] table, or no --digits; then refine looks for exact coefficients",
+            )
         return _exact(tableau, output, to, as_json)
     from orderconds.checking.refuted import refuted_claims
     from orderconds.proof.certificate import certify
