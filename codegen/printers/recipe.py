@@ -117,7 +117,7 @@ def header(
     lines += entry("left out", recipe.left_out, width)
     lines += entry("operations", counts, width)
     lines += entry("stack", [stack] if stack else [], width)
-    # A line break inside a quoted file name would damage the command, so its spaces are hidden from ``entry``.
+    # A line break inside a quoted file name would damage the command, so ``entry`` must not see its spaces.
     command = re.sub(r"'[^']*'", lambda quoted: quoted[0].replace(" ", "\0"), recipe.command)
     lines += [line.replace("\0", " ") for line in entry("command", [command] if command else [], width)]
     lines += entry("version", [f"orderconds {recipe.version}"] if recipe.version else [], width)

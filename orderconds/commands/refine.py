@@ -66,12 +66,7 @@ def command(file: str, digits: int, output: str | None, as_json: bool) -> int:
     to = output_format(output)
     tableau = read(file)
     if tableau.proof is None:
-        if click.get_current_context().get_parameter_source("digits") is ParameterSource.COMMANDLINE:
-            raise InputError(
-                "the file has no [proof] table, which names the equations for more digits",
-                where=f"{file}, --digits",
-                expected="a [proof] table, or no --digits; then refine looks for exact coefficients",
-            )
+        _refuse_digits(file)
         return _exact(tableau, output, to, as_json)
     from orderconds.checking.refuted import refuted_claims
     from orderconds.proof.certificate import certify
@@ -98,6 +93,16 @@ def command(file: str, digits: int, output: str | None, as_json: bool) -> int:
         # The text is written in UTF-8, even if the terminal has another encoding.
         click.echo(refined.text.encode(), nl=False)
     return 0
+
+
+def _refuse_digits(file: str) -> None:
+    """Raise InputError if the command line contains ``--digits``."""
+    if click.get_current_context().get_parameter_source("digits") is ParameterSource.COMMANDLINE:
+        raise InputError(
+            "the file has no [proof] table, which names the equations for more digits",
+            where=f"{file}, --digits",
+            expected="a [proof] table, or no --digits; then refine looks for exact coefficients",
+        )
 
 
 def _exact(tableau: Tableau, output: str | None, to: str, as_json: bool) -> int:

@@ -70,12 +70,7 @@ def runge_kutta(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
     cells = Cells(elimination, extra)
     free = tuple(x for x in elimination.free if x not in extra)
     rows = [row_text(cells, line) for line in A]
-    body = (
-        f'name = "{name}"',
-        'family = "rk"',
-        *_matrix(rows),
-        f"b = {row_text(cells, b, full=True)}",
-    )
+    body = (f'name = "{name}"', 'family = "rk"', *_matrix(rows), f"b = {row_text(cells, b, full=True)}")
     return Ansatz(
         family.solved_as(spec.rkn),
         name,

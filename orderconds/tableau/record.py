@@ -241,7 +241,8 @@ from the table [numbers] (defined names: none)
 
     def lower(self) -> Tableau | None:
         """Return the embedded method as a tableau with the stages of this tableau, or None if there is no
-        embedded method. The result has no claims, because the claims of this tableau are about its own method.
+        embedded method. The result has no claims, because the claims of this tableau do not concern the
+        embedded method.
 
         >>> from orderconds.tableau import find
         >>> [str(x) for x in Tableau.load(find("cg3")).lower().method.b]

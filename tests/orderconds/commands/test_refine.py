@@ -57,7 +57,9 @@ def test_floats_without_a_closed_form_and_exact_tableaux_exit_1(tmp_path: Path) 
         assert json.loads(result.stdout)["exact"] == {}
 
 
-def test_digits_without_a_proof_table_are_refused_and_exact_coefficients_have_no_proof(tmp_path: Path) -> None:
+def test_digits_without_a_proof_table_are_refused_and_exact_coefficients_have_no_proof(
+    tmp_path: Path,
+) -> None:
     source = of_floats("rk4", tmp_path / "m.json")
     refused = CliRunner().invoke(program, ["refine", str(source), "--digits", "60"])
     assert (refused.exit_code, refused.stdout) == (2, "")
