@@ -173,8 +173,8 @@ def exceeds(P: list[fmpq], Q: list[fmpq], x: Fraction, on_axis: bool) -> bool:
 
 
 def test_an_unknown_sign_at_zero_is_undecided() -> None:
-    # All signs are known, but the quotient of the first and the last coefficient may be zero.
+    # The signs of both coefficients are known, but the ball of their quotient contains zero.
     ring = Balls(128)
-    wide = ring.around(fmpq(1), fmpq(99, 100))
+    wide, narrow = ring.around(fmpq(1), fmpq(99, 100)), ring.around(fmpq(1), fmpq(1, 10))
     with pytest.raises(Undecided):
-        _odd_part([wide, ring.one, wide], Limited(ring))
+        _odd_part([wide, narrow], Limited(ring))
