@@ -50,7 +50,7 @@ def command(
     on which |R| <= 1. R is the stability function of the tableau. The ends are computed in exact
     arithmetic. "none" means that |R| > 1 right after 0, even if |R| is only slightly above 1. "unbounded"
     means that |R| <= 1 is proved on the whole half-axis. "undecided" means that the tableau contains rounded
-    coefficients, and that their digits do not determine the end.
+    coefficients whose digits do not determine the end, or that the exact computation would take too long.
 
     \b
     Examples:

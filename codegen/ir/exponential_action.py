@@ -198,8 +198,9 @@ class ExponentialAction(VectorFunction):
         while norm * scale > norms[-1] and parts < 2**HALVINGS:
             scale, parts = 0.5 * scale, 2 * parts
         norm *= scale
-        # Unlike ``norm > norms[-1]``, this test is also true if ``norm`` is a NaN.
-        if not norm <= norms[-1]:
+        # ``norm`` is never a NaN, because ``max`` ignores a NaN in its second argument. If an entry of A is a
+        # NaN, the entries of the result that depend on it are NaN, too.
+        if norm > norms[-1]:
             return (math.nan,) * self.n
         # ``scale`` is a power of two, so this product causes no rounding errors.
         a = [x * scale for x in a]
@@ -219,14 +220,17 @@ class ExponentialAction(VectorFunction):
     def in_digits(self, context: Any, digits: int, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
         """Return exp(A) y. ``args`` contains mpmath numbers: entries of A, then y.
 
-        OverflowError is raised if an entry of the n x n matrix A has an absolute value of 2^40/n or more.
+        OverflowError is raised if an entry of the n x n matrix A is a NaN, or has an absolute value of 2^40/n
+        or more.
         """
         entries, rows = len(self.places), self.rows
-        # The largest absolute entry times n is a bound for all row sums.
-        largest = max((abs(x) for x in args[:entries]), default=0) * self.n
-        # The negated comparison is also true for a NaN.
-        if not largest < 2**40:
+        # Each absolute entry times n is compared separately, because ``max`` ignores a NaN after the first
+        # number. The comparison is false for a NaN.
+        sizes = [abs(x) * self.n for x in args[:entries]]
+        if not all(x < 2**40 for x in sizes):
             raise OverflowError("the norm of the matrix is too large for its exponential")
+        # The largest absolute entry times n is a bound for all row sums.
+        largest = max(sizes, default=0)
         # The norm of A/``parts`` is below 1, so the Taylor series of exp(A/``parts``) loses only few digits
         # by cancellation.
         parts = int(largest) + 1

@@ -25,6 +25,18 @@ that return the NaN. Other modules in double precision call :mod:`math`, which r
 """
 
 
+def divided(a: float, b: float) -> float:
+    """Return a/b. For b = 0, return the infinity or NaN that C returns.
+
+    >>> divided(1.0, -0.0), divided(0.0, 0.0)
+    (-inf, nan)
+    """
+    try:
+        return a / b
+    except ZeroDivisionError:
+        return a * math.copysign(math.inf, b)
+
+
 def ieee(function: str, *args: float) -> float:
     """Return the value of a function of the module :mod:`math`, or the infinity or NaN that C returns.
 

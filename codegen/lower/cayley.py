@@ -13,6 +13,7 @@ from codegen.ir.values import Var
 from codegen.lower.base import Objection
 from codegen.lower.linear import LinearLowering
 from codegen.lower.stages import Stages
+from codegen.method import Method
 from codegen.scene.problem import Problem
 
 
@@ -35,6 +36,15 @@ class CayleyLowering(LinearLowering):
             "a group whose Lie algebra contains x^3 for each element x, such as SO(n), SE(3), Sp(2n) or U(n)"
         )
         return Objection(f", whose group is {group.name}", expected)
+
+    def symplectic(self, scene: Problem, method: Method) -> bool:
+        """Return False, because Cayley maps of abelian groups do not give symplectic steps.
+
+        An example is a Hamiltonian H(mu) on T*(SO(2) x SO(2)). The step adds 2 arctan(h H_i/2) to angle i,
+        where H_i is the derivative of H by mu_i. The Jacobian of these angles with respect to mu is in
+        general not symmetric, so the step is not symplectic.
+        """
+        return False
 
     def move(self, stages: Stages, x: Var, y: Var) -> Var:
         """Append the operations for cay(x).y to the program, and return the result."""

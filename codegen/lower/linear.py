@@ -145,7 +145,8 @@ class LinearLowering(FieldLowering):
     def symplectic(self, scene: Problem, method: Method) -> bool:
         """Return True if the group is abelian.
 
-        On an abelian group, a step is the exact flow of a Hamiltonian, so the step is symplectic.
+        If tau is exp, a step on an abelian group is the exact flow of a Hamiltonian, so the step is
+        symplectic. A family with another map tau overrides this method.
         """
         return bool(scene.group.abelian)
 

@@ -15,6 +15,9 @@ from codegen.ir.precision import DOUBLE
 
 SUM, PRODUCT, ATOM = 1, 2, 3
 
+DIVIDED = "divided"
+"""The name of the helper that divides in IEEE arithmetic."""
+
 
 @dataclass(frozen=True)
 class Rendering:
@@ -47,10 +50,14 @@ def number(value: Number) -> str:
 
 @dataclass(frozen=True)
 class Style:
-    """The conventions of a target language: the text of constants, and the names of functions."""
+    """The conventions of a target language: the text of constants, and the names of functions.
+
+    The divisions in ``divided`` are printed as calls of the helper :data:`DIVIDED`.
+    """
 
     constant: Callable[[Number], str] = number
     function: Callable[[str], str] = str
+    divided: frozenset[Expr] = frozenset()
 
 
 DOUBLES = Style()
@@ -91,7 +98,7 @@ def render(root: Expr, names: dict[str, str], style: Style = DOUBLES) -> tuple[s
                 # same. Constants stay in front, as in ``2.0 * (b * c)``.
                 swap = y.precedence == PRODUCT and x.precedence == ATOM and node.args[0].op != "const"
                 rendered[node.id] = _product(y, "*", x) if swap else _product(x, "*", y)
-            case "div":
+            case "div" if node not in style.divided:
                 rendered[node.id] = _product(args[0], "/", args[1])
             case "pow":
                 if node.args[0].op != "sym" or node.payload > 3:
@@ -102,7 +109,8 @@ def render(root: Expr, names: dict[str, str], style: Style = DOUBLES) -> tuple[s
             case _:
                 # Commas separate the arguments, so no argument needs parentheses.
                 inner = ", ".join(" ".join(signed(a)) for a in args)
-                rendered[node.id] = Rendering((f"{style.function(node.payload)}({inner})",), ATOM)
+                name = DIVIDED if node.op == "div" else node.payload
+                rendered[node.id] = Rendering((f"{style.function(name)}({inner})",), ATOM)
     return signed(rendered[root.id])
 
 

@@ -5,6 +5,7 @@ The comment describes the origin and the properties of the file, and shows an ex
 
 from __future__ import annotations
 
+import re
 import textwrap
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -100,7 +101,8 @@ def header(
     """Return the lines of the header, without the usage example.
 
     ``layout`` describes the state. ``counts`` lists the operations of a step. ``stack`` is a sentence with a
-    bound on the stack memory of a call. Lines are broken at ``width`` characters, but only between words.
+    bound on the stack memory of a call. Lines are broken at ``width`` characters, but only between words. A
+    quoted text in the command is one word.
 
     >>> header(Recipe("Step", (("method", "Lie-Euler"),), (1.0,)), ["m0: momentum"], ["2 mul a step"], 40)
     ['Step', '', 'method:     Lie-Euler', 'state:      m0: momentum', 'operations: 2 mul a step']
@@ -115,6 +117,8 @@ def header(
     lines += entry("left out", recipe.left_out, width)
     lines += entry("operations", counts, width)
     lines += entry("stack", [stack] if stack else [], width)
-    lines += entry("command", [recipe.command] if recipe.command else [], width)
+    # A line break inside a quoted file name would damage the command, so ``entry`` must not see its spaces.
+    command = re.sub(r"'[^']*'", lambda quoted: quoted[0].replace(" ", "\0"), recipe.command)
+    lines += [line.replace("\0", " ") for line in entry("command", [command] if command else [], width)]
     lines += entry("version", [f"orderconds {recipe.version}"] if recipe.version else [], width)
     return lines

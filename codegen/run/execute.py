@@ -24,8 +24,9 @@ from itertools import chain
 from types import SimpleNamespace
 from typing import Any
 
-from codegen.ir.domain import Domain
+from codegen.ir.domain import Domain, FloatDomain
 from codegen.ir.expr import Expr, power
+from codegen.ir.ieee import divided
 from codegen.ir.vector_calls import vector_function
 from codegen.run.elimination import inverted
 from codegen.run.identifiers import Identifiers, identify
@@ -447,6 +448,9 @@ class _Compiler:
             case "add" | "sub" | "mul" | "div":
                 left, right = args
                 binary = _BINARY[{"add": "+", "sub": "-", "mul": "*", "div": "/"}[root.op]]
+                # A formula with a part that is infinite can be finite, so doubles divide as in C.
+                if root.op == "div" and isinstance(domain, FloatDomain):
+                    binary = divided
                 return lambda env: binary(left(env), right(env))
             case "neg":
                 (x,) = args

@@ -24,7 +24,7 @@ from codegen.ir.rounding_domain import Sized
 from codegen.scene.formulas import Reader
 from codegen.scene.orbit import Orbit
 from codegen.scene.problem import TIME, Problem
-from codegen.scene.sites import Offset, SitePart, Sites, neighbour
+from codegen.scene.sites import Offset, SitePart, Sites, neighbour, offset_of
 
 if TYPE_CHECKING:
     import sympy
@@ -83,7 +83,8 @@ def check_parts(scene: Problem, orbit: Orbit) -> None:
     """Raise SceneError if the parts of the field violate one of the following conditions.
 
     - No part depends on time.
-    - Each :class:`Pair` couples neighbours along an axis of the lattice.
+    - Each :class:`Pair` couples neighbours along an axis of the lattice. Its offset has one entry for each
+      dimension of the lattice.
     - The generators of each part are constant along the flow of this part.
     - The velocities of all parts add up to the velocity of the field.
     """
@@ -94,11 +95,12 @@ def check_parts(scene: Problem, orbit: Orbit) -> None:
             raise SceneError(
                 f"the part {part.name} depends on t", where=scene.name, expected="a formula without t"
             )
-        if part.axis >= sites.dimension:
+        offset = offset_of(part.symbols[0], scene.symbols) if part.symbols else None
+        if offset is not None and len(offset) != sites.dimension:
             raise SceneError(
-                f"the offset of the part {part.name} has more entries than the lattice has dimensions",
+                f"the offset {offset} of the part {part.name}",
                 where=scene.name,
-                expected=f"an offset with {sites.dimension} entries",
+                expected=f"one entry for each dimension of the lattice, which has {sites.dimension}",
             )
         _check_constant(scene, orbit, part)
     if sites.parts:

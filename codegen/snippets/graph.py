@@ -20,7 +20,7 @@ from codegen.ir.table import PiecewisePolynomial
 from codegen.snippets import lane_angles, stumpff
 from codegen.templates import environment
 
-LIBRARY = (ANGLE, "fabs", "isfinite", *sorted(MATHEMATICAL))
+LIBRARY = (ANGLE, "copysign", "fabs", "isfinite", *sorted(MATHEMATICAL))
 """Functions that are in the mathematical libraries of both C and Python."""
 
 
@@ -50,6 +50,7 @@ def snippets(precision: Precision = DOUBLE, batch: bool = False) -> tuple[Snippe
     # In single precision, Python modules call functions of NumPy, which raise no exceptions.
     if precision is DOUBLE:
         listed += [_without_exceptions(name) for name in (*OVERFLOWING, *UNDEFINED)]
+        listed.append(Snippet("divided", "divided", ("copysign",)))
     listed.append(Snippet("all_finite", "all_finite", ("isfinite",)))
     listed.append(Snippet("invert", "invert", ("fabs",)))
     for k in (2, 3):

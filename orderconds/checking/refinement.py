@@ -53,7 +53,8 @@ def refine(tableau: Tableau | str | PathLike[str], digits: int = 60) -> Refineme
     - If the file has a table ``[proof]``, the equations of the table are solved. The solution is returned as
       decimals with ``digits`` correct places. ``digits`` may be 10 to 1000.
     - Without this table, each double or rounded decimal becomes a fraction or a number p + q sqrt(d) with
-      rational p and q. The exact method has at least the order of the given method.
+      rational p and q. The exact method has at least the order of the given method, and ``digits`` has no
+      effect.
 
     Raises :class:`~orderconds.proof.krawczyk.NotProved` in three cases: the equations are not proved to have
     a solution near the given decimals, no exact numbers are found, or a claim of the tableau is wrong.

@@ -27,6 +27,9 @@ def command(tableau: str, order: int | None, output: str | None, as_json: bool) 
     The extension gives the solution at each time t + theta h inside a step from t to t + h. The weights
     b_i(theta) of the extension are polynomials. The order of the extension is proved.
 
+    The result contains the claims of TABLEAU. The command tests them. If a claim is wrong, the command writes
+    nothing and exits with 2.
+
     Only TOML and JSON files can contain an extension, so the file of the option -o must have the suffix .toml
     or .json.
 

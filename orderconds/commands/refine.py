@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import click
+from click.core import ParameterSource
 
 from orderconds.argument import DIGITS
 from orderconds.commands import screen
@@ -24,14 +25,15 @@ UNKNOWN = (
     type=click.IntRange(*DIGITS),
     default=60,
     show_default=True,
-    help="The number of decimal places of the new coefficients.",
+    help="The number of decimal places of the new coefficients. This option has no effect if FILE has no [proof] table.",
 )
 @tableau_output
 @click.option(
     "--json",
     "as_json",
     is_flag=True,
-    help="Print one JSON record on stdout. It contains the new coefficients and the proof.",
+    help="Print one JSON record on stdout. It contains the new coefficients and the proof. The proof is null "
+    "if FILE has no [proof] table.",
 )
 def command(file: str, digits: int, output: str | None, as_json: bool) -> int:
     """Make the coefficients of FILE exact or more precise.
@@ -63,6 +65,7 @@ def command(file: str, digits: int, output: str | None, as_json: bool) -> int:
     to = output_format(output)
     tableau = read(file)
     if tableau.proof is None:
+        _note_digits(file)
         return _exact(tableau, output, to, as_json)
     from orderconds.checking.refuted import refuted_claims
     from orderconds.proof.certificate import certify
@@ -89,6 +92,15 @@ def command(file: str, digits: int, output: str | None, as_json: bool) -> int:
         # The text is written in UTF-8, even if the terminal has another encoding.
         click.echo(refined.text.encode(), nl=False)
     return 0
+
+
+def _note_digits(file: str) -> None:
+    """Print a note on stderr if the command line contains ``--digits``, which needs a ``[proof]`` table."""
+    if click.get_current_context().get_parameter_source("digits") is ParameterSource.COMMANDLINE:
+        click.echo(
+            f"note: {file} has no [proof] table, so --digits has no effect and the new coefficients are exact",
+            err=True,
+        )
 
 
 def _exact(tableau: Tableau, output: str | None, to: str, as_json: bool) -> int:

@@ -21,7 +21,6 @@ from collections.abc import Mapping
 from orderconds.errors import InputError
 from orderconds.families.base import Family, Key
 from orderconds.families.reductions import UnseenCut
-from orderconds.series.dexpinv import bernoulli
 from orderconds.tableau.claims import OrderClaim
 from orderconds.tableau.methods import RungeKutta
 from orderconds.tableau.products import Method
@@ -42,7 +41,8 @@ class DexpinvCut(Family):
     takes_cutoff = True
 
     def __init__(self, cutoff: int | None = None) -> None:
-        if cutoff is not None and not (isinstance(cutoff, int) and cutoff >= 0):
+        # In Python, True and False are integers, but the label ``rkmk(True)`` is not the name of a family.
+        if cutoff is not None and (type(cutoff) is not int or cutoff < 0):
             raise InputError(f"cutoff {cutoff!r}", where=f"family {self.name}", expected="an integer >= 0")
         self.cutoff = cutoff
 
@@ -108,7 +108,7 @@ def longest_unseen(cutoff: int | None) -> int:
     """
     if cutoff is None:
         return 1 << 30
+    # The first power that the truncation omits is ``first``. The Bernoulli number B_n is zero if and only if
+    # n is odd and n > 1.
     first = cutoff + 1
-    while not bernoulli(first):
-        first += 1
-    return first
+    return first + 1 if first > 1 and first % 2 else first

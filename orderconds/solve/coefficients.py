@@ -19,6 +19,9 @@ Nodes = Mapping[str, Sequence[str]]
 """Maps the name of a node (abscissa), for example c2, to the names of the coefficients whose sum is the
 node."""
 
+DIVIDES = "the formulas of the family divide by the weights"
+"""A reason for :func:`require_nonzero`."""
+
 
 def eliminated(
     names: Sequence[str], spec: Spec, constraints: Sequence[Constraint], nodes: Nodes | None = None
@@ -37,11 +40,11 @@ def eliminated(
     """
     elimination = Elimination(tuple(names))
     fixed = [equality(text).expanded(nodes or {}) for text in spec.fix]
-    for constraint in fixed:
+    for text, constraint in zip(spec.fix, fixed, strict=True):
         for name in constraint.form:
             if name and name not in names:
                 raise InputError(
-                    f"unknown coefficient {name!r} in {constraint.text!r}",
+                    f"unknown coefficient {name!r} in {text!r}",
                     where="--fix",
                     expected=f"one of {', '.join([*names, *(nodes or {})])}",
                 )
@@ -56,6 +59,28 @@ def eliminated(
                 expected=f"an absolute value of at most {spec.size}",
             )
     return elimination
+
+
+def require_nonzero(elimination: Elimination, weights: Nodes, why: str) -> None:
+    """Raise :class:`~orderconds.errors.InputError` if the constraints imply that a weight is zero.
+
+    ``weights`` maps the name of a weight to the names of the coefficients whose sum is the weight. The
+    message contains the reason ``why``.
+
+    >>> from orderconds.solve.spec import Spec
+    >>> require_nonzero(eliminated(["b1"], Spec(1), []), {"b1": ["b1"]}, "formulas divide by b1")
+    """
+    for weight, names in weights.items():
+        total: dict[str, Fraction] = {}
+        for name in names:
+            for key, x in elimination.cell(name).items():
+                total[key] = total.get(key, Fraction(0)) + x
+        if not any(total.values()):
+            raise InputError(
+                f"the constraints imply {weight} = 0",
+                where="constraints",
+                expected=f"nonzero weights, because {why}",
+            )
 
 
 @dataclass(frozen=True)

@@ -29,6 +29,7 @@ from operator import add, sub
 
 from orderconds import families
 from orderconds.checking import check
+from orderconds.checking.refuted import refuted_claims
 from orderconds.errors import TableauError
 from orderconds.ring.protocol import Element, Ring
 from orderconds.tableau import RungeKutta, Tableau
@@ -43,8 +44,8 @@ def extended(tableau: Tableau, order: int | None = None) -> Tableau:
     """Return the tableau with a continuous extension (dense output) of the given order. If ``order`` is None,
     the extension has the highest order for which an extension exists.
 
-    Raises :class:`~orderconds.errors.TableauError` if there is no extension of the given order. The tableau
-    must be a Runge-Kutta method with exact coefficients.
+    Raises :class:`~orderconds.errors.TableauError` if there is no extension of the given order, or if a claim
+    of the tableau is wrong. The tableau must be a Runge-Kutta method with exact coefficients.
 
     >>> extension = extended(Tableau.load("rk4")).extension
     >>> extension.order, [str(x) for x in extension.rows[1]]
@@ -72,14 +73,19 @@ def extended(tableau: Tableau, order: int | None = None) -> Tableau:
         )
     texts = [_trimmed([ring.text(x) for x in row]) for row in zip(*rows, strict=True)]
     data = as_data(tableau) | {"dense": {"order": q, "b": texts}}
-    result = from_data(data, tableau.path or tableau.name, tableau.path)
+    result = from_data(data, where, tableau.path)
     computed = check(result).dense
     assert computed is not None
     assert computed.order >= q
-    if computed.order == q:
-        return result
-    data["dense"]["order"] = computed.order
-    return from_data(data, tableau.path or tableau.name, tableau.path)
+    if computed.order != q:
+        data["dense"]["order"] = computed.order
+        result = from_data(data, where, tableau.path)
+    # The result contains the claims of the tableau.
+    if refuted := refuted_claims(result):
+        raise TableauError(
+            f"a claim is wrong: {'; '.join(refuted)}", where=where, expected="claims that the method fulfils"
+        )
+    return result
 
 
 def _extension(method: RungeKutta, ring: Ring, q: int) -> list[Row] | None:

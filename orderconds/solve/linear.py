@@ -17,8 +17,8 @@ string."""
 
 @dataclass(frozen=True)
 class Constraint:
-    """The equation ``form`` = 0. ``text`` is the reason for the constraint. For a constraint of the option
-    ``--fix``, ``text`` is the equation. Error messages quote ``text``."""
+    """The equation ``form`` = 0. ``text`` is the reason for the constraint, for example ``"--fix b1=1/2"``.
+    Error messages quote ``text``."""
 
     text: str
     form: Affine
@@ -46,6 +46,8 @@ class Elimination:
 
     names: Sequence[str]
     solved: dict[str, dict[str, Fraction]] = field(default_factory=dict)
+    imposed: list[Constraint] = field(default_factory=list)
+    """The constraints that eliminated a coefficient. They are linearly independent."""
 
     @property
     def free(self) -> tuple[str, ...]:
@@ -58,22 +60,17 @@ class Elimination:
 
     def impose(self, constraints: Iterable[Constraint]) -> None:
         """Add constraints. Raises :class:`~orderconds.errors.InputError` for a constraint that contradicts
-        earlier constraints.
+        earlier constraints. The message names the constraints that contradict each other.
         """
         rank = {name: place for place, name in enumerate(self.names)}
-        earlier: list[str] = []
         for constraint in constraints:
             form = self._reduced(constraint.form)
             unknown = [name for name in form if name]
             if not unknown:
                 if form:
-                    raise InputError(
-                        f"the constraint {constraint.text} contradicts the other constraints",
-                        where="constraints",
-                        expected=f"a constraint that agrees with {', '.join(dict.fromkeys(earlier))}",
-                    )
+                    raise _contradiction(constraint, self._contradicted(constraint))
                 continue
-            earlier.append(constraint.text)
+            self.imposed.append(constraint)
             pivot = max(unknown, key=rank.__getitem__)
             scale = -1 / form.pop(pivot)
             row = {name: scale * x for name, x in form.items()}
@@ -81,12 +78,43 @@ class Elimination:
                 self.solved[name] = _substituted(other, pivot, row)
             self.solved[pivot] = row
 
+    def _contradicted(self, constraint: Constraint) -> list[str]:
+        """Return the texts of the earlier constraints that contradict ``constraint``.
+
+        A linear combination of these constraints has the same unknowns as ``constraint``. The earlier
+        constraints are linearly independent, so there is only one such combination.
+        """
+        # Each earlier constraint gets an additional variable. The additional variables that remain after the
+        # elimination belong to the constraints in the linear combination.
+        texts = {f"#{k}": x.text for k, x in enumerate(self.imposed)}
+        marked = Elimination((*texts, *self.names))
+        marked.impose(
+            replace(x, form={**x.form, name: Fraction(1)})
+            for name, x in zip(texts, self.imposed, strict=True)
+        )
+        remaining = marked._reduced(constraint.form)
+        return list(dict.fromkeys(text for name, text in texts.items() if name in remaining))
+
     def _reduced(self, form: Affine) -> dict[str, Fraction]:
         result = dict(form)
         for name in form:
             if name in self.solved:
                 result = _substituted(result, name, self.solved[name])
         return {name: x for name, x in result.items() if x}
+
+
+def _contradiction(constraint: Constraint, others: Sequence[str]) -> InputError:
+    if not others:
+        return InputError(
+            f"{constraint.text!r} does not hold for any coefficients",
+            where="constraints",
+            expected="an equation with a solution",
+        )
+    return InputError(
+        f"{constraint.text!r} contradicts {', '.join(map(repr, others))}",
+        where="constraints",
+        expected="constraints that have a common solution",
+    )
 
 
 def _substituted(form: Affine, name: str, by: Affine) -> dict[str, Fraction]:
@@ -98,7 +126,8 @@ def _substituted(form: Affine, name: str, by: Affine) -> dict[str, Fraction]:
 
 
 def equality(text: str, where: str = "--fix") -> Constraint:
-    """Parse a linear constraint, such as ``"a21 = 1/2"`` or ``"b3 = 1 - b1 - b2"``.
+    """Parse a linear constraint, such as ``"a21 = 1/2"`` or ``"b3 = 1 - b1 - b2"``. Error messages name the
+    option ``where``.
 
     Raises :class:`~orderconds.errors.InputError` if ``text`` is not a linear equation.
 
@@ -118,7 +147,7 @@ def equality(text: str, where: str = "--fix") -> Constraint:
     form = dict(sides[0])
     for name, x in sides[1].items():
         form[name] = form.get(name, Fraction(0)) - x
-    return Constraint(text, {name: x for name, x in form.items() if x})
+    return Constraint(f"{where} {text}", {name: x for name, x in form.items() if x})
 
 
 def _affine(x: Expression) -> Affine:

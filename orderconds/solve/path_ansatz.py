@@ -9,7 +9,7 @@ from orderconds.errors import InputError
 from orderconds.families import Family
 from orderconds.solve.abscissae import WHERE, commutator_free_times, symmetric_transport, transport
 from orderconds.solve.ansatz import Ansatz
-from orderconds.solve.coefficients import Cells, eliminated, row_text
+from orderconds.solve.coefficients import DIVIDES, Cells, eliminated, require_nonzero, row_text
 from orderconds.solve.linear import Constraint, Elimination, equal, named, spell, sum_to_one
 from orderconds.solve.paths import Path, full_paths, symmetric_paths
 from orderconds.solve.spec import Spec, refuse
@@ -59,6 +59,10 @@ def commutator_free(family: Family, spec: Spec, structure: str, name: str) -> An
         constraints += _totals(stages, update)
         names = [*totals, *names]
     elimination = eliminated(names, spec, constraints)
+    if family.needs_nonzero_weights:
+        columns = zip(*update, strict=True)
+        weights = {named("b", j): column for j, column in enumerate(columns, start=1)}
+        require_nonzero(elimination, weights, DIVIDES)
     extra |= {name: text for name, text in totals.items() if name in elimination.free}
     if structure == "abscissae":
         extra = _abscissae(stages, update, elimination)

@@ -23,6 +23,10 @@ PLAIN, MINIMISED = 4096, 1024
 all other cases."""
 
 
+DIVISION = "the formulas of the family divide by a weight or another number that is zero at the solution"
+"""The reason why there is no proof if the proof fails with a ZeroDivisionError."""
+
+
 @dataclass
 class Outcome:
     """The outcome of a search: a method (``solution``), a proof that no method exists (``none``), or neither.
@@ -181,7 +185,8 @@ def _finished(
     for _, point in solutions[:8]:
         try:
             return certify_solution(problem, point, order.name, source, minimised=order.minimised), refused
-        # A formula of the family may divide by a weight or another number that is zero at this solution.
-        except (NotProved, ZeroWeight, ZeroDivisionError) as problem_met:
+        except (NotProved, ZeroWeight) as problem_met:
             refused = str(problem_met)
+        except ZeroDivisionError:
+            refused = DIVISION
     return None, refused

@@ -9,7 +9,7 @@ from orderconds.errors import InputError
 from orderconds.families import Family
 from orderconds.solve.abscissae import WHERE, crouch_grossman_times, transport
 from orderconds.solve.ansatz import Ansatz
-from orderconds.solve.coefficients import Cells, eliminated, row_text
+from orderconds.solve.coefficients import DIVIDES, Cells, eliminated, require_nonzero, row_text
 from orderconds.solve.linear import Elimination, divisor, equal, named, spell, sum_to_one, zero
 from orderconds.solve.spec import Spec, refuse
 
@@ -59,6 +59,8 @@ def runge_kutta(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
         constraints.append(sum_to_one(b))
     nodes = {named("c", i + 1): line for i, line in enumerate(A)}
     elimination = eliminated(names, spec, constraints, nodes)
+    if family.needs_nonzero_weights:
+        require_nonzero(elimination, {x: [x] for x in b}, DIVIDES)
     extra = {}
     if structure == "abscissae":
         weights = [Cells(elimination).written(x) for x in b]
@@ -68,12 +70,7 @@ def runge_kutta(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
     cells = Cells(elimination, extra)
     free = tuple(x for x in elimination.free if x not in extra)
     rows = [row_text(cells, line) for line in A]
-    body = (
-        f'name = "{name}"',
-        'family = "rk"',
-        *_matrix(rows),
-        f"b = {row_text(cells, b, full=True)}",
-    )
+    body = (f'name = "{name}"', 'family = "rk"', *_matrix(rows), f"b = {row_text(cells, b, full=True)}")
     return Ansatz(
         family.solved_as(spec.rkn),
         name,
@@ -114,13 +111,9 @@ def _symplectic(
     Raises InputError if the constraints imply b_i = 0 for a weight. The same error is raised if they
     determine both a_ij and a_ji, and the equation for (i, j) does not follow from them.
     """
-    for weight in b:
-        if not elimination.cell(weight):
-            raise InputError(
-                f"the constraints imply {weight} = 0",
-                where="constraints",
-                expected="nonzero weights, because symplectic methods do not use a stage with the weight 0",
-            )
+    require_nonzero(
+        elimination, {x: [x] for x in b}, "symplectic methods do not use a stage with the weight 0"
+    )
     cells, last = Cells(elimination), len(b) - 1
     formulas: dict[str, str] = {}
     for j in range(len(b)):

@@ -87,9 +87,9 @@ def decimal_text(text: str) -> str:
     return ("-" if x < 0 else "") + printed(Fraction(x))
 
 
-def is_short(x: float) -> bool:
-    """Return True if a double counts as an exact number. An exact number has at most :data:`SHORT`
-    significant bits, and its numerator and its denominator have at most :data:`LARGE` bits each.
+def is_short(x: float, bits: int = SHORT) -> bool:
+    """Return True if a double counts as an exact number. An exact number has at most ``bits`` significant
+    bits, and its numerator and its denominator have at most :data:`LARGE` bits each.
 
     >>> is_short(0.375), is_short(0.1)
     (True, False)
@@ -98,7 +98,7 @@ def is_short(x: float) -> bool:
     if max(numerator.bit_length(), denominator.bit_length()) > LARGE:
         return False
     numerator = abs(numerator)
-    return not numerator or (numerator // (numerator & -numerator)).bit_length() <= SHORT
+    return not numerator or (numerator // (numerator & -numerator)).bit_length() <= bits
 
 
 def printed(value: Fraction) -> str:

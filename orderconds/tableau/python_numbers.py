@@ -13,7 +13,7 @@ from fractions import Fraction
 from typing import Protocol, cast
 
 from orderconds.errors import TableauError
-from orderconds.tableau.doubles import double_text
+from orderconds.tableau.doubles import double_text, is_short
 from orderconds.tableau.file_format import Coefficient
 
 EXPECTED = (
@@ -21,9 +21,10 @@ EXPECTED = (
 )
 
 
-SMALL = 1024
-"""A NumPy float of 16 or 32 bits becomes a rounded decimal if its denominator, as a fraction in lowest terms,
-is larger than SMALL. If the denominator is at most SMALL, the float is converted like a double."""
+NARROW = {2: (3, 5), 4: (7, 12)}
+"""For NumPy floats of 2 and 4 bytes: the number of digits of a rounded decimal, and the largest number of
+significant bits of an exact number. The formats have 11 and 24 significant bits. As for doubles
+(:data:`~orderconds.tableau.doubles.SHORT`), at most half of them may belong to an exact number."""
 
 
 class _Listed(Protocol):
@@ -41,10 +42,9 @@ class _Narrow(Protocol):
 def coefficient(x: object, where: str) -> Coefficient:
     """Convert a number to a coefficient of a tableau file.
 
-    The value of a NumPy float of 16 or 32 bits is a fraction in lowest terms. If the denominator of the
-    fraction is larger than 1024 (:data:`SMALL`), the float becomes a rounded decimal. Otherwise, the float is
-    converted like a double, by :func:`~orderconds.tableau.doubles.double_text`. Raises TableauError for
-    complex numbers, infinities, NaN, truth values and objects that are not numbers.
+    A NumPy float of 16 or 32 bits with more significant bits than :data:`NARROW` becomes a rounded decimal.
+    Otherwise, the float is converted like a double, by :func:`~orderconds.tableau.doubles.double_text`.
+    Raises TableauError for complex numbers, infinities, NaN, truth values and objects that are not numbers.
 
     >>> from fractions import Fraction
     >>> [coefficient(x, "b[1]") for x in (1, Fraction(1, 3), "sqrt(3)/6", 0.25, 0.1)]
@@ -76,8 +76,8 @@ def _of_a_package(x: object, where: str) -> Coefficient:
     if isinstance(x, numbers.Complex) and not isinstance(x, numbers.Real):
         raise TableauError(f"the complex number {x}", where=where, expected="a real number")
     if package == "numpy" and isinstance(x, numbers.Real):
-        digits = {2: 3, 4: 7}.get(cast("_Narrow", x).itemsize)
-        return double_text(float(x), where) if digits is None else _rounded(float(x), digits, where)
+        narrow = NARROW.get(cast("_Narrow", x).itemsize)
+        return double_text(float(x), where) if narrow is None else _rounded(float(x), *narrow, where)
     if package == "sympy":
         return _of_sympy(x, where)
     if package in ("flint", "orderconds"):
@@ -87,9 +87,9 @@ def _of_a_package(x: object, where: str) -> Coefficient:
     raise TableauError(f"{shown} of type {type(x).__name__}", where=where, expected=EXPECTED)
 
 
-def _rounded(x: float, digits: int, where: str) -> Coefficient:
+def _rounded(x: float, digits: int, bits: int, where: str) -> Coefficient:
     text = double_text(x, where)
-    if Fraction(x).denominator <= SMALL:
+    if is_short(x, bits):
         return text
     return f"{Decimal(f'{x:.{digits - 1}e}'):f}~"
 

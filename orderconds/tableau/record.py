@@ -241,6 +241,7 @@ from the table [numbers] (defined names: none)
 
     def lower(self) -> Tableau | None:
         """Return the embedded method as a tableau with the stages of this tableau, or None if there is no
+        embedded method. The result has no claims, because the claims of this tableau do not concern the
         embedded method.
 
         >>> from orderconds.tableau import find
@@ -254,7 +255,7 @@ from the table [numbers] (defined names: none)
             lower = CommutatorFree(method.stages, embedded.update)
         else:
             return None
-        return replace(self, method=lower, embedded=None, proof=None, file=None)
+        return replace(self, method=lower, claims=Claims(), embedded=None, proof=None, file=None)
 
     def read_as(self, formats: tuple[str, ...]) -> Method | None:
         """Convert the method to the first format in ``formats`` for which a conversion exists. Return None if

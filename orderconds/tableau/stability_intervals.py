@@ -198,12 +198,16 @@ def _odd_part(F: Polynomial, ring: SignedRing) -> Polynomial:
 
     Each factor occurs once in the product. The product changes its sign at the same points as F, and all
     zeros of the product are simple. The sign of the product is chosen such that the value at 0 is positive.
+    Raises :class:`Undecided` if the sign of the value at 0 is unknown.
     """
     result = [ring.one]
     for multiplicity, factor in enumerate(squarefree(F, ring), start=1):
         if multiplicity % 2:
             result = product(result, factor, ring)
-    return result if ring.sign(result[0]) == 1 else [-x for x in result]
+    start = ring.sign(result[0])
+    if start is None:
+        raise Undecided
+    return result if start == 1 else [-x for x in result]
 
 
 def _first_zero(F: Polynomial, ring: SignedRing, limit: int) -> tuple[Fraction, Fraction] | None:

@@ -269,7 +269,14 @@ def test_the_energy_of_a_splitting_is_bounded_and_spins_keep_their_length():
             "in the part bonds, generator 0 depends on the state y and is not constant along",
         ),
         ({"bonds": Pair((-1,), S, S)}, r"the offset \(-1,\) of the part bonds"),
-        ({"bonds": Pair((0, 1), S, S)}, "more entries than the lattice has dimensions"),
+        (
+            {"bonds": Pair((0, 1), S, S)},
+            r"the offset \(0, 1\) of the part bonds; expected one entry for each",
+        ),
+        (
+            {"bonds": Pair((1, 0), S, S)},
+            r"the offset \(1, 0\) of the part bonds; expected one entry for each",
+        ),
         ({"bonds": Pair((1,), S, [0])}, "has 1 components"),
         ({"single": [Symbol("t"), 0, 0]}, "the part single depends on t"),
         ({"single": neighbour(S, (1,))}, "has no value"),

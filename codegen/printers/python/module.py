@@ -10,13 +10,16 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from codegen.ir.angle_depth import chain
+from codegen.ir.expr import Expr
 from codegen.ir.ieee import OVERFLOWING, UNDEFINED
 from codegen.ir.kernel import Kernel
 from codegen.ir.precision import DOUBLE
 from codegen.ir.selection import CHOOSE
 from codegen.kernel.operations import costs
+from codegen.printers.expression import DIVIDED
 from codegen.printers.interface import Interface
 from codegen.printers.needs import functions_of
+from codegen.printers.python.divisions import hidden_divisions
 from codegen.printers.python.functions import FunctionPrinter, class_of
 from codegen.printers.python.modes import print_modes
 from codegen.printers.python.terms import Constants
@@ -75,7 +78,10 @@ class _Module:
         """The floating-point constants of the module."""
         # A local variable with the name of a constant would hide the global constant.
         taken = {name for of in self.identifiers.values() for name in of.by_name.values()}
-        return Constants(self.interface.format, frozenset(taken), lambda name: self.replaced.get(name, name))
+        names = self.replaced
+        return Constants(
+            self.interface.format, frozenset(taken), lambda name: names.get(name, name), self.divisions
+        )
 
     @cached_property
     def printer(self) -> FunctionPrinter:
@@ -123,12 +129,18 @@ class _Module:
         # is not NaN, and a solver may return a status code in place of NaNs.
         undefined = CHOOSE in called or bool(self.interface.blocks)
         hidden = {*OVERFLOWING, *(UNDEFINED if undefined else ())}
-        return {name: f"_{name}" for name in called if name in hidden}
+        return {name: f"_{name}" for name in called if name in hidden} | {DIVIDED: f"_{DIVIDED}"}
+
+    @cached_property
+    def divisions(self) -> frozenset[Expr]:
+        """The divisions that the module computes with a helper, for the same reason."""
+        return frozenset() if self.single else hidden_divisions(self.unit)
 
     @cached_property
     def needed(self) -> Needed:
         """The library functions and the helper functions that the module needs."""
         wanted = {f"ieee{self.replaced[f]}" if f in self.replaced else f for f in functions_of(self.unit)}
+        wanted |= {DIVIDED} if self.divisions else set()
         # ``functions_of`` does not find the calls of ``power`` and ``sqrt`` in the step control.
         wanted |= {"power"} & self.called | {"sqrt"} & self.called
         return needed("python", sorted(wanted), self.interface.format, chain=chain(self.kernel))

@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import ClassVar
 
+from codegen.ir.expr import Expr
 from codegen.ir.number import Number
 from codegen.ir.precision import DOUBLE, Precision
 from codegen.printers.expression import Style, render
@@ -25,16 +26,21 @@ class Constants:
     In single precision, ``digits`` maps the name of each constant to the text of its value. In double
     precision, ``digits`` is empty.
 
-    ``called`` maps the name of a function in an expression to the name that is printed.
+    ``called`` maps the name of a function in an expression to the name that is printed. The divisions in
+    ``divided`` are printed as calls of a helper.
     """
 
     def __init__(
-        self, precision: Precision, taken: frozenset[str], called: Callable[[str], str] = str
+        self,
+        precision: Precision,
+        taken: frozenset[str],
+        called: Callable[[str], str] = str,
+        divided: frozenset[Expr] = frozenset(),
     ) -> None:
         self.precision, self.taken = precision, taken
         self.digits: dict[str, str] = {}
         self._names: dict[str, str] = {}
-        self.style = Style(function=called) if precision is DOUBLE else Style(self._rounded)
+        self.style = Style(function=called, divided=divided) if precision is DOUBLE else Style(self._rounded)
 
     def _rounded(self, value: Number) -> str:
         return self.text(self.precision.round(value))

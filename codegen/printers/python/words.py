@@ -15,7 +15,7 @@ _WORDS = """
     SINGULAR TOO_SHORT StepFailed Statistics step run run_adaptive jacobian index
 """
 
-_HELPERS = frozenset(f"_{name}" for name in (*OVERFLOWING, *UNDEFINED))
+_HELPERS = frozenset(f"_{name}" for name in (*OVERFLOWING, *UNDEFINED, "divided"))
 
 # Builtins are reserved, because a parameter ``max`` would hide the builtin function ``max``.
 RESERVED = frozenset(keyword.kwlist) | frozenset(_WORDS.split()) | frozenset(LIBRARY) | _HELPERS

@@ -7,7 +7,7 @@ import math
 import pytest
 
 from codegen.ir.domain import FloatDomain
-from codegen.ir.ieee import OVERFLOWING, UNDEFINED, ieee
+from codegen.ir.ieee import OVERFLOWING, UNDEFINED, divided, ieee
 from codegen.snippets.graph import needed
 
 VALUES = (-math.inf, -1e3, -1.5, -0.0, 0.0, 0.5, 1e3, 1e300, math.inf, math.nan)
@@ -32,6 +32,20 @@ def test_the_domain_and_the_helpers_have_the_values_of_numpy(name: str) -> None:
             expected = getattr(math, name)(x)
         for value in (ieee(name, x), FloatDomain(0.0).call(name, x), namespace[f"_{name}"](x)):
             assert same(value, expected)
+
+
+def test_a_division_by_zero_has_the_value_of_numpy() -> None:
+    import numpy as np
+
+    namespace = dict(vars(math))
+    for text in needed("python", ["divided"]).texts:
+        exec(text, namespace)
+    for a in VALUES:
+        for b in VALUES:
+            with np.errstate(all="ignore"):
+                expected = float(np.float64(a) / np.float64(b))
+            assert same(divided(a, b), expected)
+            assert same(namespace["_divided"](a, b), expected)
 
 
 def test_stumpff_functions_of_large_negative_numbers_are_infinite() -> None:

@@ -9,14 +9,26 @@ from itertools import product
 
 import mpmath
 import pytest
-from sympy import Matrix, Rational, Symbol, cos, sin
+from sympy import Matrix, Rational, Symbol, atan, cos, diff, sin, symbols
 
 from codegen.certify import certified_order
 from codegen.emitter import compile_method, emit_compiled
 from codegen.errors import MethodError, SceneError
-from codegen.groups import GL, SL2, SO3, Columns, LeftMultiplication, Linear, RightMultiplication, Rn
+from codegen.groups import (
+    GL,
+    SL2,
+    SO2,
+    SO3,
+    Columns,
+    LeftMultiplication,
+    Linear,
+    Product,
+    RightMultiplication,
+    Rn,
+)
 from codegen.ir.domain import PreciseDomain
 from codegen.ir.interpret import interpret
+from codegen.lab.long_runs.symplecticity import symplectic_defect
 from codegen.lab.orders.convergence import converge
 from codegen.lab.reference import cached_reference
 from codegen.lab.runner import Emitted
@@ -280,3 +292,28 @@ def test_a_hint_names_a_method_that_works(scene, method):
     assert family is not None or named is not None, hint
     spelling = f"{family[1]}:{method.partition(':')[2]}" if family else named[1]
     lower(load(scene), method_for(load(scene), spelling))
+
+
+def coupled_rotors():
+    """Two rotors with the Hamiltonian H = p0^2 p1. The group is abelian."""
+    group = Product(SO2(), SO2())
+    q, p = group.point("q"), group.dual("p")
+    start = {"q0": [1, 0, 1, 0], "mu0": [Rational(1, 2), Rational(1, 3)]}
+    return HamiltonianScene(name="rotors", group=group, q=q, mu=p, H=p[0] ** 2 * p[1], span=(0, 1), **start)
+
+
+def test_products_of_exponentials_are_symplectic_on_abelian_groups():
+    made = compile_method(coupled_rotors(), "magnus:magnus4")
+    assert lowering("magnus").symplectic(made.scene, made.method)
+    assert symplectic_defect(made, [1.0, 0.0, 1.0, 0.0, 0.5, 1 / 3], 0.25) < 1e-40
+
+
+def test_cayley_steps_are_not_symplectic_on_abelian_groups():
+    scene = coupled_rotors()
+    assert not lowering("cayley").symplectic(scene, method_for(scene, "magnus:magnus4"))
+    # A step with cay adds these angles to q, and does not change p. It is symplectic if and only if their
+    # Jacobian with respect to p is symmetric.
+    h, p0, p1 = symbols("h p0 p1")
+    angles = [2 * atan(h * diff(p0**2 * p1, p) / 2) for p in (p0, p1)]
+    difference = diff(angles[0], p1) - diff(angles[1], p0)
+    assert difference.subs({h: Rational(1, 4), p0: Rational(1, 2), p1: Rational(1, 3)}) != 0

@@ -44,3 +44,11 @@ def test_the_command_and_the_version_come_last() -> None:
         "command",
         "version",
     ]
+
+
+def test_a_quoted_file_name_in_the_command_is_not_broken() -> None:
+    name = "'my  scene with a long name.py'"
+    recipe = Recipe("t", (), (1.0,), command=f"orderconds emit {name} --method rk4")
+    lines = header(recipe, ["s"], [], 40)
+    assert any(name in line for line in lines)
+    assert [line.strip() for line in lines[-3:]] == ["command:    orderconds emit", name, "--method rk4"]

@@ -117,6 +117,15 @@ def test_a_matrix_that_would_take_too_long_gives_nan(size):
     assert all(map(math.isnan, ExponentialAction(2).in_doubles([0.0, size, -size, 0.0, 1.0, 0.0])))
 
 
+@pytest.mark.parametrize("place", range(4))
+def test_a_matrix_with_a_nan_has_no_exponential_in_digits(place):
+    domain = PreciseDomain(0.1, 30)
+    args = [domain.context.mpf(1)] * 6
+    args[place] = domain.context.nan
+    with pytest.raises(OverflowError):
+        ExponentialAction(2).in_digits(domain.context, 30, args)
+
+
 @pytest.mark.parametrize("precision", [DOUBLE, SINGLE], ids=lambda p: p.name)
 def test_the_coefficients_of_the_polynomials_are_exact(precision):
     for m in degrees(precision.bits):

@@ -18,7 +18,7 @@ TARGETS = ("c", "python")
 EXCEPTIONS = tuple(f"ieee_{name}" for name in (*OVERFLOWING, *UNDEFINED))
 """Helpers for Python. The functions of C raise no exceptions."""
 
-ONE_TARGET = ("greater", "largest", "all_finite", "power", *EXCEPTIONS)
+ONE_TARGET = ("greater", "largest", "all_finite", "power", "divided", *EXCEPTIONS)
 """Helpers that the other target has built in."""
 
 

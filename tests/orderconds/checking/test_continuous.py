@@ -148,6 +148,16 @@ def test_extend_names_what_is_impossible() -> None:
         assert "Traceback" not in done.stderr
 
 
+def test_extend_writes_no_wrong_claim(tmp_path: Path) -> None:
+    path = tmp_path / "mine.toml"
+    path.write_text(MIDPOINT.replace("[dense]", "[claims]\nrk = 3\nsymplectic = true"))
+    done = CliRunner().invoke(program, ["extend", str(path), "-o", str(path)])
+    assert done.exit_code == 2
+    assert "rk: claimed order 3, computed order 2" in done.stderr
+    assert "property symplectic: claimed true, computed false" in done.stderr
+    assert "dense" not in path.read_text()
+
+
 def test_extensions_over_number_fields_are_exact() -> None:
     from orderconds.solve.extension import extended
 

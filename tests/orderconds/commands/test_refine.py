@@ -57,6 +57,17 @@ def test_floats_without_a_closed_form_and_exact_tableaux_exit_1(tmp_path: Path) 
         assert json.loads(result.stdout)["exact"] == {}
 
 
+def test_digits_have_no_effect_without_a_proof_table_and_exact_coefficients_have_no_proof(
+    tmp_path: Path,
+) -> None:
+    source = of_floats("rk4", tmp_path / "m.json")
+    plain = CliRunner().invoke(program, ["refine", str(source), "--json"])
+    noted = CliRunner().invoke(program, ["refine", str(source), "--json", "--digits", "60"])
+    assert (plain.stderr, noted.exit_code, noted.stdout) == ("", 0, plain.stdout)
+    assert noted.stderr.startswith("note: ") and "no [proof] table" in noted.stderr
+    assert json.loads(plain.stdout)["proof"] is None
+
+
 @pytest.mark.parametrize("suffix", [suffix for _, suffix in FORMATS.values()])
 def test_a_refined_proof_is_written_in_the_format_of_the_suffix(suffix: str, tmp_path: Path) -> None:
     source, target = tmp_path / "m.json", tmp_path / f"refined{suffix}"

@@ -159,6 +159,14 @@ def test_bad_input_is_one_message(args: str, said: str) -> None:
     assert result.stdout == ""
 
 
+def test_a_division_by_zero_at_the_solution_is_the_reason_for_no_proof() -> None:
+    # The condition b1 + b2 = 1 implies b1 = 0, and the formulas of the family divide by b1.
+    result = run("vrkmk", "--stages", "2", "--order", "2", "--fix", "b1=b2-1", "--starts", "64")
+    assert result.exit_code == 1
+    said = "the formulas of the family divide by a weight or another number that is zero at the solution"
+    assert f"solutions not proved: {said}" in result.stdout + result.stderr
+
+
 @pytest.mark.skipif(os.name != "posix", reason="links")
 @pytest.mark.parametrize("option", ["-o", "--checkpoint"])
 def test_a_link_to_itself_is_one_message(option: str, tmp_path: Path) -> None:

@@ -123,6 +123,40 @@ def test_wishes_that_make_no_sense_are_refused(spec: Spec, said: str) -> None:
     assert said in str(problem.value)
 
 
+def test_a_contradiction_names_exactly_the_constraints_that_cause_it() -> None:
+    def said(spec: Spec) -> str:
+        with pytest.raises(InputError) as problem:
+            ansatz("rk", spec)
+        return str(problem.value.found)
+
+    assert said(Spec(2, fix=("b1=b1+1",))) == "'--fix b1=b1+1' does not hold for any coefficients"
+    fix = ("a21=1", "b1=1", "b2=0", "c2=2")
+    expected = "'--fix c2=2' contradicts '--explicit (a22 = 0)', '--fix a21=1'"
+    assert said(Spec(2, explicit=True, fix=fix)) == expected
+    fix = ("b1=b2", "a21=b1", "a12=a21-b2+1", "a12=2")
+    expected = "'--fix a12=2' contradicts '--fix b1=b2', '--fix a21=b1', '--fix a12=a21-b2+1'"
+    assert said(Spec(2, fix=fix)) == expected
+    # Here b1=b2 is not needed for the contradiction, although the formula of a21 uses it.
+    fix = ("b1=b2", "a21=b1", "a12=a21-b1+1", "a12=2")
+    expected = "'--fix a12=2' contradicts '--fix a21=b1', '--fix a12=a21-b1+1'"
+    assert said(Spec(2, fix=fix)) == expected
+
+
+@pytest.mark.parametrize(
+    ("family", "fix"),
+    [
+        ("vcg", ("b2=0",)),
+        ("vcg", ("b1=b2-1", "b2=1")),
+        ("vcf", ("b1_2=0", "b2_2=0")),
+        ("vcf", ("b1_2=1-b2_2-1",)),
+        ("symplectic_rk", ("b2=0",)),
+    ],
+)
+def test_a_zero_weight_is_refused_if_formulas_divide_by_it(family: str, fix: tuple[str, ...]) -> None:
+    with pytest.raises(InputError, match=r"the constraints imply b[12] = 0; expected nonzero weights"):
+        solve(family, order=2, stages=2, fix=fix, starts=64)
+
+
 def test_elimination_keeps_every_constraint() -> None:
     names = ("x", "y", "z")
     found = Elimination(names)

@@ -8,7 +8,7 @@ import pytest
 from orderconds import families
 from orderconds.checking import check, family_order
 from orderconds.errors import TableauError
-from orderconds.tableau import CommutatorFree, EmbeddedUpdate, RungeKutta, Tableau, dumps, find
+from orderconds.tableau import Claims, CommutatorFree, EmbeddedUpdate, RungeKutta, Tableau, dumps, find
 from tests.exact_steps import GROUPS, local_error_power
 
 PAIRS = {
@@ -41,6 +41,13 @@ def test_a_pair_has_its_orders_by_the_conditions_and_by_the_local_error(name: st
     assert report.embedded.orders[family] == report.embedded.claimed == embedded
     powers = {local_error_power(lower(name), family, None, group, embedded + 1) for group in GROUPS.values()}
     assert powers - {None} == {embedded + 1}
+
+
+@pytest.mark.parametrize("name", PAIRS)
+def test_the_claims_of_a_method_are_no_claims_of_its_embedded_method(name: str) -> None:
+    assert tableau(name).claims.orders
+    assert lower(name).claims == Claims()
+    assert "claims" not in dumps(lower(name))
 
 
 @pytest.mark.parametrize("name", PAIRS)

@@ -13,8 +13,8 @@ from hypothesis import strategies as st
 from orderconds.ring import QQ, Balls
 from orderconds.ring.tower import Tower
 from orderconds.tableau import RungeKutta, Tableau, find
-from orderconds.tableau.stability import determinants, product
-from orderconds.tableau.stability_intervals import Intervals, stability_intervals
+from orderconds.tableau.stability import Limited, Undecided, determinants, product
+from orderconds.tableau.stability_intervals import Intervals, _odd_part, stability_intervals
 
 
 def rationals(*numbers: int | str | Fraction) -> list[fmpq]:
@@ -170,3 +170,11 @@ def exceeds(P: list[fmpq], Q: list[fmpq], x: Fraction, on_axis: bool) -> bool:
         return real**2 + imaginary**2
 
     return square(P) > square(Q)
+
+
+def test_an_unknown_sign_at_zero_is_undecided() -> None:
+    # The signs of both coefficients are known, but the ball of their quotient contains zero.
+    ring = Balls(128)
+    wide, narrow = ring.around(fmpq(1), fmpq(99, 100)), ring.around(fmpq(1), fmpq(1, 10))
+    with pytest.raises(Undecided):
+        _odd_part([wide, narrow], Limited(ring))
