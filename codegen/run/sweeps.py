@@ -47,6 +47,7 @@ from codegen.run.terms import (
     flag,
     greatest,
     is_finite,
+    largest,
     negated,
     number,
     own,
@@ -318,8 +319,10 @@ class _Newton(_Loop):
         infinite determinant is 0, so all entries of the inverse are 0 or NaN. The changes would be 0, as if
         the loop had converged.
         """
-        row = [size(self.cell(k)) for k in range(len(self.unknowns))]
-        return total(row) > 0.0
+        if self.kept:
+            return largest(self.inverse) > 0.0
+        # Without an array, the first row is tested: no row of an inverse is zero.
+        return total(size(self.cell(k)) for k in range(len(self.unknowns))) > 0.0
 
     def singular(self) -> Term:
         """Return the test that is true if the loop has not converged and the matrix is singular.

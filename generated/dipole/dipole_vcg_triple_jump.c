@@ -486,8 +486,7 @@ static inline int dipole_vcg_triple_jump_substep(double state[static 12], double
             memory->inverse_1[6] = w38 * w39;
             memory->inverse_1[7] = w39 * (w33 * w34 + 1.01 * w30);
             memory->inverse_1[8] = w39 * (1.01 - w33 * w35);
-            memory->age_1 = fabs(memory->inverse_1[0]) + fabs(memory->inverse_1[1])
-                + fabs(memory->inverse_1[2]) > 0.0 ? 1 : 0;
+            memory->age_1 = dipole_vcg_triple_jump_largest(memory->inverse_1, 9) > 0.0 ? 1 : 0;
             dipole_vcg_triple_jump_count_matrix(statistics);
         }
         d_xi1_0 = memory->inverse_1[0] * residual_0 + memory->inverse_1[1] * residual_1

@@ -491,10 +491,7 @@ def _substep(state, h, memory, statistics):
                     w39 * (w35 * w37 + 1.01 * w28), w38 * w39,
                     w39 * (w33 * w34 + 1.01 * w30), w39 * (1.01 - w33 * w35),
                 )
-                memory.age_1 = (
-                    1 if abs(memory.inverse_1[0]) + abs(memory.inverse_1[1])
-                    + abs(memory.inverse_1[2]) > 0.0 else 0
-                )
+                memory.age_1 = 1 if max(map(abs, memory.inverse_1)) > 0.0 else 0
                 _count_matrix(statistics)
             d_xi1_0 = (
                 memory.inverse_1[0] * residual_0 + memory.inverse_1[1] * residual_1

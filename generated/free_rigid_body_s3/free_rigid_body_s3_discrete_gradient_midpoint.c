@@ -1019,8 +1019,8 @@ static inline int free_rigid_body_s3_discrete_gradient_midpoint_advance(double s
             memory->inverse_1[6] = w469 * w470;
             memory->inverse_1[7] = w470 * (w461 * w463 - w429 * w459);
             memory->inverse_1[8] = w470 * (w396 * w459 - w461 * w465);
-            memory->age_1 = fabs(memory->inverse_1[0]) + fabs(memory->inverse_1[1])
-                + fabs(memory->inverse_1[2]) > 0.0 ? 1 : 0;
+            memory->age_1 = free_rigid_body_s3_discrete_gradient_midpoint_largest(memory->inverse_1, 9)
+                > 0.0 ? 1 : 0;
             free_rigid_body_s3_discrete_gradient_midpoint_count_matrix(statistics);
         }
         const double change_xi_0 = memory->inverse_1[0] * residual_xi_0

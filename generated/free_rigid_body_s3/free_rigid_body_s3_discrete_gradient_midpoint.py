@@ -1150,10 +1150,7 @@ def _advance(state, h, memory, statistics):
                     w470 * (w461 * w463 - w429 * w459),
                     w470 * (w396 * w459 - w461 * w465),
                 )
-                memory.age_1 = (
-                    1 if abs(memory.inverse_1[0]) + abs(memory.inverse_1[1])
-                    + abs(memory.inverse_1[2]) > 0.0 else 0
-                )
+                memory.age_1 = 1 if max(map(abs, memory.inverse_1)) > 0.0 else 0
                 _count_matrix(statistics)
             change_xi_0 = (
                 memory.inverse_1[0] * residual_xi_0
