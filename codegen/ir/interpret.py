@@ -6,6 +6,7 @@ digits, or power series. Tests compare the results of emitted code with the resu
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from copy import copy
 from dataclasses import replace
@@ -271,9 +272,10 @@ def _solved(columns: list[list[Scalar]], right: list[Scalar]) -> list[Scalar]:
         pivot = max(range(k, n), key=lambda i: abs(rows[i][k]))
         rows[k], rows[pivot] = rows[pivot], rows[k]
         # The pivot has the largest absolute value of all entries in the rows k, ..., n - 1 of column k. If
-        # the pivot is zero, all these entries are zero, so the matrix is singular.
-        if not rows[k][k]:
-            raise NotConverged("the matrix of Newton's method is singular")
+        # the pivot is zero, all these entries are zero, so the matrix is singular. A division by an infinite
+        # pivot would give the change zero, as if the iteration had converged.
+        if not rows[k][k] or not abs(rows[k][k]) < math.inf:
+            raise NotConverged("the matrix of Newton's method is singular or not finite")
         for i in range(k + 1, n):
             # The entries below the pivot become zero up to rounding, and are not read again.
             factor = rows[i][k] / rows[k][k]

@@ -28,6 +28,13 @@ inverses are not known exactly. The factor 10^12 is a wide margin for these erro
 remain for the decision.
 """
 
+FACTORS = 618034, 1000003
+"""Two numbers p and q: argument number k of a vector function changes by 1 + (p k mod q)/q times its size.
+
+The number q is prime, so the factors of the first q arguments are different. The quotient p/q is close to the
+golden ratio 0.618..., so the factors of neighbouring arguments are not close together.
+"""
+
 
 @dataclass(frozen=True, slots=True)
 class Sized:
@@ -142,17 +149,16 @@ class RoundingDomain:
 
         The size of a result r is |r| + |q|, where q is a difference quotient that estimates the effect of the
         rounding errors of the arguments on r. In the difference quotient, all arguments change at the same
-        time, because one difference quotient for each argument would be expensive. Any 13 consecutive
-        arguments change by different multiples of their sizes. With equal multiples, the changes of x and y
+        time, because one difference quotient for each argument would be expensive. All arguments change by
+        different multiples of their sizes (:data:`FACTORS`). With equal multiples, the changes of x and y
         could cancel in a result such as x - y.
         """
         values = [x.value for x in args]
         results = self.plain.vector(function, values)
 
         def along(step: Scalar) -> tuple[Scalar, ...]:
-            # The factors are ``step`` * 1, ``step`` * 23/16, ``step`` * 17/16, ``step`` * 3/2, ....
-            # The sequence repeats after 13 arguments.
-            factors = (step * (16 + 7 * k % 13) / 16 for k in range(len(args)))
+            multiplier, modulus = FACTORS
+            factors = (step * (modulus + multiplier * k % modulus) / modulus for k in range(len(args)))
             return self.plain.vector(
                 function, [x.value + t * x.size for x, t in zip(args, factors, strict=True)]
             )

@@ -86,15 +86,20 @@ class Outline:
             if not chosen:
                 return None
             rewritten_roots, shapes = self._called(roots, chosen)
-            # A call reads all inputs of a tree. Suppose that the program uses an input x only in x - x. Then
-            # ``roots`` contains 0 instead of x - x, and x is missing in ``roots``, so emitted code does not
-            # compute x. Therefore a tree with a missing input is not replaced by a call.
+            # A call reads all inputs of a tree, and the parameters of its function. Suppose that the program
+            # uses an input or a parameter x only in x - x. Then ``roots`` contains 0 instead of x - x, and x
+            # is missing in ``roots``, so emitted code does not compute x. Therefore a tree that would read x
+            # is not replaced by a call. At least one tree is removed, because each added symbol is an input
+            # or a parameter.
             added = _symbols(rewritten_roots) - _symbols(roots)
             if added:
-                called = [tree for alike in chosen.values() for tree in alike]
-                trees = [tree for tree in called if added.isdisjoint(_symbols(self.trees.inputs(tree)))]
-                if len(trees) == len(called):
-                    return None
+                trees = [
+                    tree
+                    for function, key in zip(self.outlined, shapes.values(), strict=True)
+                    if added.isdisjoint(function.inputs)
+                    for tree in chosen[key]
+                    if added.isdisjoint(_symbols(self.trees.inputs(tree)))
+                ]
                 continue
             # Simplification may have removed some of the new calls, so the remaining calls are counted.
             calls: dict[str, int] = {}

@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+from math import inf
 from typing import Any
 
 
 def inverted(n: int, matrix: list[Any]) -> int:
-    """Replace a matrix (a flat list) by its inverse and return 1, or return 0 if the matrix is singular."""
+    """Replace a matrix (a flat list) by its inverse and return 1.
+
+    If the matrix is singular, or contains an infinity or a NaN, the result is 0. A matrix with an infinity or
+    a NaN still contains one afterwards.
+    """
     import numpy
 
     # For doubles, the result equals that of the emitted code, because the operations have the same order.
@@ -18,7 +23,8 @@ def inverted(n: int, matrix: list[Any]) -> int:
         for k in range(n):
             sizes = abs(rows[k:, k])
             pivot = k + max(range(n - k), key=sizes.__getitem__)
-            if not sizes[pivot - k] > 0:
+            # The reciprocal of an infinite pivot is 0. Later products with it would hide the infinity.
+            if not 0 < sizes[pivot - k] < inf:
                 # There is no usable pivot. The emitted function stops here, too, and leaves the partly
                 # eliminated matrix in the array, so the same numbers are stored in ``matrix``.
                 matrix[:] = rows.ravel().tolist()

@@ -35,11 +35,28 @@ from codegen.run.site_terms import (
     row_of,
     split,
 )
-from codegen.run.terms import Kind, Term, count, greatest, number, own, real, select, size, whole
+from codegen.run.terms import (
+    NOT_FINITE,
+    OK,
+    SINGULAR,
+    STATUS,
+    Kind,
+    Term,
+    all_finite,
+    code,
+    count,
+    greatest,
+    number,
+    own,
+    real,
+    select,
+    size,
+    whole,
+)
 
 _INNER, _LAST, _BASE, _FIRST = count("inner"), count("last"), count("base"), count("first")
 _SITE, _I, _J, _K, _SUM = count("site"), count("i"), count("j"), count("k"), real("sum")
-_SINGULAR, _REGULAR, _ENTRY = count("singular"), count("regular"), count("entry")
+_REGULAR, _ENTRY = count("regular"), count("entry")
 # The order of the three blocks of a site in memory.
 LEFT, OWN_BLOCK, RIGHT = range(3)
 
@@ -84,12 +101,12 @@ class ChainSolver:
     def prepared(self) -> list[Statement]:
         """Return the calls that compute and factor the matrix.
 
-        The call for the factorisation also counts the singular pivot blocks.
+        The call for the factorisation sets the status to OK, SINGULAR or NOT_FINITE.
         """
         linearise = self.linearise()
         return [
             Call(linearise.name, linearise.parameters),
-            Call(self.name("factor"), (SITES, self.work), (_SINGULAR,)),
+            Call(self.name("factor"), (SITES, self.work), (STATUS,)),
         ]
 
     def corrected(self) -> Statement:
@@ -210,11 +227,13 @@ class ChainSolver:
         return Function(self.name("substitute"), about, (_INNER, SITES, self.work, _FIRST), tuple(body))
 
     def factor(self) -> Function:
-        """Return the emitted function that factors the matrix and counts the singular pivot blocks."""
+        """Return the emitted function that factors the matrix and returns a status."""
         n, diagonal, column = self.n, real("diagonal", self.n * self.n), real("column", self.n)
         invert = Call("invert", (whole(n), diagonal), (_REGULAR,))
-        # The caller tests the number of singular pivot blocks.
-        counted = If(_REGULAR.equals(whole(0)), (Assign(_SINGULAR, _SINGULAR + 1),))
+        # If a pivot block contains an infinity or a NaN, all later pivot blocks contain one, too. Therefore
+        # the last failure gives the right status.
+        cause = select(all_finite(diagonal), code(SINGULAR), code(NOT_FINITE))
+        tested = If(_REGULAR.equals(whole(0)), (Assign(STATUS, cause),))
         # At site i - 1, the block RIGHT was already multiplied by the inverse of the pivot block.
         left = self.cell(_SITE, LEFT, _I, _K) * self.cell(_SITE - 1, RIGHT, _K, _J)
         pivot = (
@@ -237,21 +256,21 @@ class ChainSolver:
             back = Assign(self.cell(_SITE, block, _I, _J), column[_I])
             scaled.append(For(_J, whole(n), (For(_I, whole(n), entry), For(_I, whole(n), (back,)))))
         stored = Assign(self.cell(_SITE, OWN_BLOCK, _I, _J), diagonal[_I * n + _J])
-        site = (self.both(pivot), invert, counted, *scaled, self.both((stored,)))
+        site = (self.both(pivot), invert, tested, *scaled, self.both((stored,)))
         body: list[Statement] = [
             *self.opening(),
-            Assign(_SINGULAR, whole(0)),
+            Assign(STATUS, code(OK)),
             Array(diagonal),
             Array(column),
             # ``border_columns`` must come before the loop over the sites, because the loop overwrites entries
             # that ``border_columns`` reads.
             *(self.border_columns() if self.step.periodic else []),
             For(_SITE, _INNER, site),
-            *(self.border_pivot(diagonal, invert, counted) if self.step.periodic else []),
-            Return(_SINGULAR),
+            *(self.border_pivot(diagonal, invert, tested) if self.step.periodic else []),
+            Return(STATUS),
         ]
-        about = "Factor the matrix by block elimination; return the number of singular pivot blocks."
-        return Function(self.name("factor"), about, (SITES, self.work), tuple(body), Kind.COUNT)
+        about = "Factor the matrix by block elimination. Return a status other than OK if it has no inverse."
+        return Function(self.name("factor"), about, (SITES, self.work), tuple(body), Kind.STATUS)
 
     def both(self, body: tuple[Statement, ...]) -> For:
         """Return two nested loops that execute ``body`` for each entry (i, j) of a block."""
@@ -275,7 +294,7 @@ class ChainSolver:
         zero = Assign(self.work[self.row(self.newton.border) + place], number(0.0))
         return [Assign(_LAST, _INNER - 1), For(place, n * n * STRIDE, (zero,)), *ends]
 
-    def border_pivot(self, diagonal: Term, invert: Call, counted: If) -> list[Statement]:
+    def border_pivot(self, diagonal: Term, invert: Call, tested: If) -> list[Statement]:
         """Return the statements that compute and invert the pivot block of the last site.
 
         Let T be Newton's matrix without the rows and columns of the last site. For each column c of the
@@ -296,7 +315,7 @@ class ChainSolver:
             Assign(diagonal[_I * n + _J], _SUM),
         )
         stored = Assign(self.cell(_INNER, OWN_BLOCK, _I, _J), diagonal[_I * n + _J])
-        return [solved, self.both(pivot), invert, counted, self.both((stored,))]
+        return [solved, self.both(pivot), invert, tested, self.both((stored,))]
 
     def correct(self) -> Function:
         """Return the function that solves the linear equations, with the residuals as right-hand side.
@@ -368,8 +387,3 @@ class ChainSolver:
             For(_I, whole(n), own_block),
             For(_SITE, _INNER, (For(_I, whole(n), others),)),
         ]
-
-
-def unsolved() -> Term:
-    """Return the condition that at least one pivot block of the matrix is singular."""
-    return _SINGULAR > 0

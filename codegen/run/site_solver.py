@@ -20,14 +20,13 @@ from codegen.ir.site_step import STATE, WORK, SiteBlock, SiteStep
 from codegen.kernel.schedule import METHODS
 from codegen.run.language import Array, Assign, Call, For, Function, If, Note, Return, Statement, While
 from codegen.run.plan import STEP, Plan
-from codegen.run.site_newton import ChainSolver, unsolved
+from codegen.run.site_newton import ChainSolver
 from codegen.run.site_terms import ARRAYS, MEASURED, SITES, distributed, row_of
 from codegen.run.statistics import SWEEPS
 from codegen.run.stopping import CHANGE, SCALE, Stopping
 from codegen.run.terms import (
     NOT_CONVERGED,
     OK,
-    SINGULAR,
     STATUS,
     Kind,
     Term,
@@ -35,6 +34,7 @@ from codegen.run.terms import (
     code,
     count,
     greatest,
+    is_finite,
     number,
     real,
     size,
@@ -82,7 +82,7 @@ def iterated(
     """Return the statements that repeat ``iteration`` until the unknowns converge.
 
     If the unknowns do not converge, the statements return the status NOT_CONVERGED or NOT_FINITE. If Newton's
-    matrix is singular, the statements return the status SINGULAR.
+    matrix has no inverse, the statements return the status SINGULAR or NOT_FINITE.
     """
     rule = _Stopping(plan, loop_of(block), block_number, ())
     chain = None if block.newton is None else ChainSolver(plan, step, block, block_number)
@@ -95,11 +95,11 @@ def iterated(
         Assign(SCALE, MEASURED[1]),
         *rule.converged(),
         # ``MEASURED[2]`` is finite only if all changes are finite.
-        rule.decided(MEASURED[2]),
+        rule.decided(is_finite(MEASURED[2])),
         Assign(rule.previous, CHANGE),
     ]
     # Newton's matrix is computed once in each step, before the first iteration.
-    prepared = [] if chain is None else [*chain.prepared(), If(unsolved(), (Return(code(SINGULAR)),))]
+    prepared = [] if chain is None else [*chain.prepared(), If(STATUS.differs(code(OK)), (Return(STATUS),))]
     return [
         Note(f"{block.label}: {METHODS[rule.loop.solver]}"),
         *prepared,

@@ -44,7 +44,6 @@ from codegen.run.terms import (
     either,
     flag,
     greatest,
-    is_finite,
     largest,
     negated,
     number,
@@ -245,14 +244,14 @@ class Stopping:
         ``possible`` is the test that the matrix of Newton's method is not singular, or None if this test is
         not needed. The first rule that applies gives the status:
 
-        - NOT_FINITE if the value of the term ``finite`` is an infinity or a NaN.
+        - NOT_FINITE if the test ``finite`` is false.
         - OK if the flag ``converged`` is true, and ``possible`` is true or None.
         - NOT_CONVERGED in all other cases.
         """
         # Comparisons with a NaN are false, so a NaN never sets the flag ``converged``.
         converged = flag("converged") if possible is None else both(possible, flag("converged"))
         outcome = select(converged, code(OK), code(NOT_CONVERGED))
-        return Assign(STATUS, select(is_finite(finite), outcome, code(NOT_FINITE)))
+        return Assign(STATUS, select(finite, outcome, code(NOT_FINITE)))
 
     def going_on(self, astray: Term | None = None) -> Term:
         """Return the condition under which the loop continues.

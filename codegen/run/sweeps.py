@@ -47,6 +47,7 @@ from codegen.run.terms import (
     flag,
     greatest,
     is_finite,
+    largest,
     negated,
     number,
     own,
@@ -180,7 +181,7 @@ class _FixedPoint(_Loop):
         many = len(self.unknowns) > WIDEST
         measured, finite = self.wide() if many else self.narrow()
         rule, body = self.rule, self.computed()
-        body += [*measured, *rule.rates(), *rule.converged(), rule.decided(finite)]
+        body += [*measured, *rule.rates(), *rule.converged(), rule.decided(is_finite(finite))]
         taken = [Assign(u, x) for u, x in zip(self.unknowns, self.images, strict=True)]
         # Later statements use the unknowns together with results that the last sweep has computed from the
         # unknowns. Therefore the unknowns are not updated after convergence.
@@ -280,9 +281,8 @@ class _Newton(_Loop):
         # ``SCALE`` is the largest absolute value of an unknown before this correction.
         body += self.corrected(changes)
         body += rule.converged()
-        # The function ``invert`` sets ``self.age`` to 1, or to 0 if the matrix is singular. With a singular
-        # matrix the changes are meaningless, so even small changes do not mean convergence.
-        body.append(rule.decided(finite, self.age > 0 if self.kept and not self.newton.inverted else None))
+        # The changes are finite only if the residuals and the array of the matrix are finite.
+        body.append(self.decided(total(changes)))
         if self.kept:
             # The loop fails if this sweep computed a new matrix and the changes still do not decrease.
             stalled = both(flag("still"), self.making)
@@ -297,6 +297,32 @@ class _Newton(_Loop):
         astray = flag("astray") if self.kept else None
         eliminated = self.kept and not self.newton.inverted
         return [*sequence, *self.until_converged(body, astray, self.singular() if eliminated else None)]
+
+    def decided(self, finite: Term) -> Statement:
+        """Return the statement that sets the status after a sweep.
+
+        The term ``finite`` has a finite value if all changes are finite.
+        """
+        test = is_finite(finite)
+        if not self.kept and not self.newton.residuals:
+            return self.rule.decided(test)
+        # :meth:`renewed` sets ``self.age`` to 1, or to 0 if the matrix has no usable inverse. Without an
+        # inverse the changes are meaningless, so even small changes do not mean convergence.
+        if self.newton.inverted:
+            return self.rule.decided(both(test, self.age > 0))
+        return self.rule.decided(test, self.age > 0)
+
+    def regular(self) -> Term:
+        """Return the test that is true if formulas have computed a usable inverse matrix.
+
+        If the matrix contains an infinity or a NaN, its determinant is infinite or NaN. The reciprocal of an
+        infinite determinant is 0, so all entries of the inverse are 0 or NaN. The changes would be 0, as if
+        the loop had converged.
+        """
+        if self.kept:
+            return largest(self.inverse) > 0.0
+        # Without an array, the first row is tested: no row of an inverse is zero.
+        return total(size(self.cell(k)) for k in range(len(self.unknowns))) > 0.0
 
     def singular(self) -> Term:
         """Return the test that is true if the loop has not converged and the matrix is singular.
@@ -317,7 +343,7 @@ class _Newton(_Loop):
         body += rule.sums(changes, self.unknowns)
         body += self.corrected(changes)
         body += rule.converged_by_residuals()
-        body.append(rule.decided(CHANGE, self.age > 0 if inverted else None))
+        body.append(self.decided(CHANGE))
         # At most one matrix is computed in a step. A second matrix would cost more than further sweeps.
         body.append(Assign(self.making, truth(False)))
         body.append(Assign(rule.previous, CHANGE))
@@ -332,7 +358,8 @@ class _Newton(_Loop):
         """Return the statements that compute a new matrix for Newton's method and store its inverse."""
         sequence = self.entries()
         if self.newton.inverted:
-            return [*sequence, Assign(self.age, whole(1)), *self.matrix_counted()]
+            age = select(self.regular(), whole(1), whole(0))
+            return [*sequence, Assign(self.age, age), *self.matrix_counted()]
         # The inverse costs more than a factorisation. However, it is used in many sweeps, and a product with
         # the inverse is faster than forward and back substitution.
         sequence.append(Call("invert", (whole(len(self.unknowns)), self.inverse), (self.age,)))
@@ -350,20 +377,24 @@ class _Newton(_Loop):
         """Return the statements that compute and invert the matrix before the sweeps of a step.
 
         If the elimination fails, the emitted function returns NOT_FINITE if the array of the matrix contains
-        an infinity or a NaN after the elimination, and SINGULAR otherwise.
+        an infinity or a NaN after the elimination, and SINGULAR otherwise. If formulas compute no usable
+        inverse, the emitted function returns NOT_FINITE.
         """
         sequence = self.entries()
         if self.newton.inverted:
-            return sequence
+            return [*sequence, If(negated(self.regular()), self.failed(code(NOT_FINITE)))]
         n, inverted = len(self.unknowns), count(f"inverted_{self.number}")
         sequence = [Array(self.inverse), *sequence, Call("invert", (whole(n), self.inverse), (inverted,))]
-        # If the elimination fails for a matrix with a NaN, the array ``self.inverse`` contains a NaN
-        # afterwards. An infinity can be lost: the reciprocal of an infinite pivot is 0.
+        # If the elimination fails for a matrix with an infinity or a NaN, the array ``self.inverse`` contains
+        # an infinity or a NaN afterwards.
         cause = select(all_finite(self.inverse), code(SINGULAR), code(NOT_FINITE))
+        return [*sequence, If(inverted.equals(0), self.failed(cause))]
+
+    def failed(self, cause: Term) -> tuple[Statement, ...]:
+        """Return the statements that end the step with the status ``cause`` before the first sweep."""
         # The function ``count_sweeps`` reads the status to record a failure, so the status is set first.
         counted = (count_sweeps(self.plan, self.number - 1, whole(0)),) if self.counting else ()
-        failed = (Assign(STATUS, cause), *counted, Return(STATUS))
-        return [*sequence, If(inverted.equals(0), failed)]
+        return (Assign(STATUS, cause), *counted, Return(STATUS))
 
     def entries(self) -> list[Statement]:
         """Return the statements that compute the entries of the matrix."""

@@ -52,7 +52,7 @@ def snippets(precision: Precision = DOUBLE, batch: bool = False) -> tuple[Snippe
         listed += [_without_exceptions(name) for name in (*OVERFLOWING, *UNDEFINED)]
         listed.append(Snippet("divided", "divided", ("copysign",)))
     listed.append(Snippet("all_finite", "all_finite", ("isfinite",)))
-    listed.append(Snippet("invert", "invert", ("fabs",)))
+    listed.append(Snippet("invert", "invert", ("fabs", "isfinite")))
     for k in (2, 3):
         variables = {"k": k, "terms": stumpff.slopes(k, precision)}
         listed.append(Snippet(f"slope{k}", "slope", (f"stumpff_{k - 1}{k}",), variables))

@@ -7,10 +7,8 @@ The Stumpff functions are defined by the series c_k(z) = sum_j (-z)^j/(2j+k)!. T
 
 If z <= SWITCH[k], c_k is evaluated by a polynomial. If z > SWITCH[k], c_0 and c_1 are evaluated by their
 closed forms. The closed forms of c_2 and c_3 suffer from cancellation. Instead, the formulas c_2(z) =
-c_1(z/4)^2/2 and c_3(z) = (1 - c_1(z))/z are used. Let u be 3/2 units in the last place of z: the rounding
-error of sqrt z has the same effect as an error of at most sqrt(2) units in z. The error of c_k(z) is at most
-max |c_k(z +- u) - c_k(z)|, plus two units in the last place of c_k(z). For z above :func:`limit`, c_k(z) is
-NaN.
+c_1(z/4)^2/2 and c_3(z) = (1 - c_1(z))/z are used. :data:`ROUNDINGS` bounds the errors. For z above
+:func:`limit`, c_k(z) is NaN.
 """
 
 from __future__ import annotations
@@ -23,6 +21,15 @@ from codegen.ir.precision import DOUBLE, Precision
 
 SWITCH = (1, 1, 1, 4)
 """For 0 <= z <= SWITCH[k], c_k(z) is evaluated by a polynomial."""
+
+ROUNDINGS = (3, 3, 5, 4)
+"""The error of c_k(z) is at most max |c_k(z +- u) - c_k(z)| + ROUNDINGS[k] r |c_k(z)|.
+
+Here r is the unit roundoff, and u is 3/2 units in the last place of z: the rounding error of sqrt z has the
+same effect as an error of at most sqrt(2) units in z. The second term bounds the other rounding errors to
+first order in r, if the errors of sine and cosine are at most r. For example, c_1(z/4) has two such errors,
+from a sine and a division. The square doubles them and adds one, so ROUNDINGS[2] is 5.
+"""
 
 SMALL, TINY = Fraction(1, 16), Fraction(1, 256)
 """For 0 <= z <= SMALL, a short polynomial approximates the Stumpff function c_k(z).

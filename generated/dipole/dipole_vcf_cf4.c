@@ -257,7 +257,7 @@ static double dipole_vcf_cf4_largest(const double *x, size_t n)
 }
 
 /* Invert an n x n matrix, stored row by row, in place (Gauss-Jordan with row exchanges). Return 0 if it is
- * singular, else 1. Here n is always 12. */
+ * singular or not finite, else 1. Here n is always 12. */
 static size_t dipole_vcf_cf4_invert(size_t n, double *restrict a)
 {
     double row[12];
@@ -269,7 +269,7 @@ static size_t dipole_vcf_cf4_invert(size_t n, double *restrict a)
                 pivot = i;
             }
         }
-        if (!(fabs(a[pivot * n + k]) > 0.0)) {
+        if (!(fabs(a[pivot * n + k]) > 0.0 && isfinite(a[pivot * n + k]))) {
             return 0;
         }
         order[k] = pivot;

@@ -486,7 +486,7 @@ static inline int dipole_vcg_triple_jump_substep(double state[static 12], double
             memory->inverse_1[6] = w38 * w39;
             memory->inverse_1[7] = w39 * (w33 * w34 + 1.01 * w30);
             memory->inverse_1[8] = w39 * (1.01 - w33 * w35);
-            memory->age_1 = 1;
+            memory->age_1 = dipole_vcg_triple_jump_largest(memory->inverse_1, 9) > 0.0 ? 1 : 0;
             dipole_vcg_triple_jump_count_matrix(statistics);
         }
         d_xi1_0 = memory->inverse_1[0] * residual_0 + memory->inverse_1[1] * residual_1
@@ -512,7 +512,7 @@ static inline int dipole_vcg_triple_jump_substep(double state[static 12], double
             && (change <= 5.684341886080802e-14 * scale || (change * fabs(h)
             <= 7.105427357601002e-15 * dipole_vcg_triple_jump_largest(state, 9) && change * fabs(h)
             <= 7.105427357601002e-15 * dipole_vcg_triple_jump_largest(state + 9, 3))))));
-        status = isfinite(change) ? (converged ? DIPOLE_VCG_TRIPLE_JUMP_OK
+        status = isfinite(change) && memory->age_1 > 0 ? (converged ? DIPOLE_VCG_TRIPLE_JUMP_OK
             : DIPOLE_VCG_TRIPLE_JUMP_NOT_CONVERGED) : DIPOLE_VCG_TRIPLE_JUMP_NOT_FINITE;
         make_1 = 0;
         previous_1 = change;

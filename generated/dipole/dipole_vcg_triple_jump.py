@@ -491,7 +491,7 @@ def _substep(state, h, memory, statistics):
                     w39 * (w35 * w37 + 1.01 * w28), w38 * w39,
                     w39 * (w33 * w34 + 1.01 * w30), w39 * (1.01 - w33 * w35),
                 )
-                memory.age_1 = 1
+                memory.age_1 = 1 if max(map(abs, memory.inverse_1)) > 0.0 else 0
                 _count_matrix(statistics)
             d_xi1_0 = (
                 memory.inverse_1[0] * residual_0 + memory.inverse_1[1] * residual_1
@@ -524,7 +524,8 @@ def _substep(state, h, memory, statistics):
                 and change * abs(h) <= 7.105427357601002e-15 * max(map(abs, state[9:12]))))))
             )
             status = (
-                (OK if converged else NOT_CONVERGED) if isfinite(change) else NOT_FINITE
+                (OK if converged else NOT_CONVERGED)
+                if isfinite(change) and memory.age_1 > 0 else NOT_FINITE
             )
             make_1 = False
             previous_1 = change

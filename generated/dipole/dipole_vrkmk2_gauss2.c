@@ -256,7 +256,7 @@ static double dipole_vrkmk2_gauss2_largest(const double *x, size_t n)
 }
 
 /* Invert an n x n matrix, stored row by row, in place (Gauss-Jordan with row exchanges). Return 0 if it is
- * singular, else 1. Here n is always 6. */
+ * singular or not finite, else 1. Here n is always 6. */
 static size_t dipole_vrkmk2_gauss2_invert(size_t n, double *restrict a)
 {
     double row[6];
@@ -268,7 +268,7 @@ static size_t dipole_vrkmk2_gauss2_invert(size_t n, double *restrict a)
                 pivot = i;
             }
         }
-        if (!(fabs(a[pivot * n + k]) > 0.0)) {
+        if (!(fabs(a[pivot * n + k]) > 0.0 && isfinite(a[pivot * n + k]))) {
             return 0;
         }
         order[k] = pivot;

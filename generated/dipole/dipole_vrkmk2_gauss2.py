@@ -258,12 +258,11 @@ def _stumpff_12(z):
 
 
 def invert(n, matrix):
-    """Invert an n x n matrix, stored row by row, in place; return 0 if it is singular, else 1."""
-    a = [matrix[n * i : n * i + n] for i in range(n)]
-    order = [0] * n
+    """Invert an n x n matrix, stored row by row, in place; return 0 if it is singular or not finite, else 1."""
+    a, order = [matrix[n * i : n * i + n] for i in range(n)], [0] * n
     for k in range(n):
         pivot = max(range(k, n), key=lambda i: fabs(a[i][k]))
-        if not fabs(a[pivot][k]) > 0.0:
+        if not (fabs(a[pivot][k]) > 0.0 and isfinite(a[pivot][k])):
             matrix[:] = [x for row in a for x in row]
             return 0
         order[k] = pivot

@@ -1019,7 +1019,8 @@ static inline int free_rigid_body_s3_discrete_gradient_midpoint_advance(double s
             memory->inverse_1[6] = w469 * w470;
             memory->inverse_1[7] = w470 * (w461 * w463 - w429 * w459);
             memory->inverse_1[8] = w470 * (w396 * w459 - w461 * w465);
-            memory->age_1 = 1;
+            memory->age_1 = free_rigid_body_s3_discrete_gradient_midpoint_largest(memory->inverse_1, 9)
+                > 0.0 ? 1 : 0;
             free_rigid_body_s3_discrete_gradient_midpoint_count_matrix(statistics);
         }
         const double change_xi_0 = memory->inverse_1[0] * residual_xi_0
@@ -1050,7 +1051,7 @@ static inline int free_rigid_body_s3_discrete_gradient_midpoint_advance(double s
         const int converged = close || (still && (change <= 5.684341886080802e-14 * scale || change
             * fabs(h) <= 7.105427357601002e-15
             * free_rigid_body_s3_discrete_gradient_midpoint_largest(state, 4)));
-        status = isfinite(residual_xi_0 + residual_xi_1 + residual_xi_2) ? (converged
+        status = isfinite(change_xi_0 + change_xi_1 + change_xi_2) && memory->age_1 > 0 ? (converged
             ? FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_OK
             : FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_NOT_CONVERGED)
             : FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_NOT_FINITE;

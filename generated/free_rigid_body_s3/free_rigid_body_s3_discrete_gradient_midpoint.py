@@ -1150,7 +1150,7 @@ def _advance(state, h, memory, statistics):
                     w470 * (w461 * w463 - w429 * w459),
                     w470 * (w396 * w459 - w461 * w465),
                 )
-                memory.age_1 = 1
+                memory.age_1 = 1 if max(map(abs, memory.inverse_1)) > 0.0 else 0
                 _count_matrix(statistics)
             change_xi_0 = (
                 memory.inverse_1[0] * residual_xi_0
@@ -1187,8 +1187,8 @@ def _advance(state, h, memory, statistics):
             )
             status = (
                 (OK if converged else NOT_CONVERGED)
-                if isfinite(residual_xi_0 + residual_xi_1 + residual_xi_2)
-                else NOT_FINITE
+                if isfinite(change_xi_0 + change_xi_1 + change_xi_2)
+                and memory.age_1 > 0 else NOT_FINITE
             )
             astray = still and make_1
             make_1 = 0.015625 * previous_1 > 0.0 and change > 0.015625 * previous_1

@@ -301,7 +301,7 @@ static double heavy_top_slgi_midpoint_largest(const double *x, size_t n)
 }
 
 /* Invert an n x n matrix, stored row by row, in place (Gauss-Jordan with row exchanges). Return 0 if it is
- * singular, else 1. Here n is always 6. */
+ * singular or not finite, else 1. Here n is always 6. */
 static size_t heavy_top_slgi_midpoint_invert(size_t n, double *restrict a)
 {
     double row[6];
@@ -313,7 +313,7 @@ static size_t heavy_top_slgi_midpoint_invert(size_t n, double *restrict a)
                 pivot = i;
             }
         }
-        if (!(fabs(a[pivot * n + k]) > 0.0)) {
+        if (!(fabs(a[pivot * n + k]) > 0.0 && isfinite(a[pivot * n + k]))) {
             return 0;
         }
         order[k] = pivot;
@@ -796,10 +796,9 @@ static inline int heavy_top_slgi_midpoint_advance(double state[static 12], doubl
         const int converged = close || (still && (change <= 5.684341886080802e-14 * scale || (change
             * fabs(h) <= 7.105427357601002e-15 * heavy_top_slgi_midpoint_largest(state, 9) && change
             * fabs(h) <= 7.105427357601002e-15 * heavy_top_slgi_midpoint_largest(state + 9, 3))));
-        status = isfinite(residual_xi1_0 + residual_xi1_1 + residual_xi1_2 + residual_n1_0
-            + residual_n1_1 + residual_n1_2) ? (memory->age_1 > 0 && converged
-            ? HEAVY_TOP_SLGI_MIDPOINT_OK : HEAVY_TOP_SLGI_MIDPOINT_NOT_CONVERGED)
-            : HEAVY_TOP_SLGI_MIDPOINT_NOT_FINITE;
+        status = isfinite(change_xi1_0 + change_xi1_1 + change_xi1_2 + change_n1_0 + change_n1_1
+            + change_n1_2) ? (memory->age_1 > 0 && converged ? HEAVY_TOP_SLGI_MIDPOINT_OK
+            : HEAVY_TOP_SLGI_MIDPOINT_NOT_CONVERGED) : HEAVY_TOP_SLGI_MIDPOINT_NOT_FINITE;
         astray = (still && make_1) || !(memory->age_1 > 0);
         make_1 = 0.015625 * previous_1 > 0.0 && change > 0.015625 * previous_1;
         previous_1 = change;

@@ -295,12 +295,11 @@ def slope2(z):
 
 
 def invert(n, matrix):
-    """Invert an n x n matrix, stored row by row, in place; return 0 if it is singular, else 1."""
-    a = [matrix[n * i : n * i + n] for i in range(n)]
-    order = [0] * n
+    """Invert an n x n matrix, stored row by row, in place; return 0 if it is singular or not finite, else 1."""
+    a, order = [matrix[n * i : n * i + n] for i in range(n)], [0] * n
     for k in range(n):
         pivot = max(range(k, n), key=lambda i: fabs(a[i][k]))
-        if not fabs(a[pivot][k]) > 0.0:
+        if not (fabs(a[pivot][k]) > 0.0 and isfinite(a[pivot][k])):
             matrix[:] = [x for row in a for x in row]
             return 0
         order[k] = pivot
@@ -769,7 +768,7 @@ def _advance(state, h, memory, statistics):
             )
             status = (
                 (OK if memory.age_1 > 0 and converged else NOT_CONVERGED)
-                if isfinite(residual_xi1_0 + residual_xi1_1 + residual_xi1_2 + residual_n1_0 + residual_n1_1 + residual_n1_2)
+                if isfinite(change_xi1_0 + change_xi1_1 + change_xi1_2 + change_n1_0 + change_n1_1 + change_n1_2)
                 else NOT_FINITE
             )
             astray = (still and make_1) or (not memory.age_1 > 0)

@@ -25,7 +25,8 @@ UNKNOWN = (
     type=click.IntRange(*DIGITS),
     default=60,
     show_default=True,
-    help="The number of decimal places of the new coefficients. This option has no effect if FILE has no [proof] table.",
+    help="The number of decimal places of the new coefficients. This option has no effect if FILE has no "
+    "[proof] table.",
 )
 @tableau_output
 @click.option(
@@ -98,7 +99,7 @@ def _note_digits(file: str) -> None:
     """Print a note on stderr if the command line contains ``--digits``, which needs a ``[proof]`` table."""
     if click.get_current_context().get_parameter_source("digits") is ParameterSource.COMMANDLINE:
         click.echo(
-            f"note: {file} has no [proof] table, so --digits has no effect and the new coefficients are exact",
+            f"note: {file} has no [proof] table, so --digits has no effect; the new coefficients are exact",
             err=True,
         )
 

@@ -8,7 +8,7 @@ from functools import cache
 import numpy as np
 import pytest
 from click.testing import CliRunner
-from sympy import Matrix, symbols
+from sympy import Matrix, sqrt, symbols
 
 from codegen import emit, load_lattice
 from codegen.arrival import Status
@@ -314,6 +314,19 @@ def test_a_singular_matrix_is_reported():
     assert (result.status, result.completed) == (Status.SINGULAR, 0)
     assert "the matrix of the equations" in result.reason
     assert lattice.run([[1.0], [2.0]], 0.5, 1, c=1.0).ok
+
+
+@pytest.mark.parametrize("boundary", ["open", "periodic"])
+def test_an_infinite_matrix_is_no_solution(boundary):
+    (y,) = symbols("q:1", real=True)
+    given = {"group": Rn(1), "action": LeftMultiplication(), "y": [y], "y0": [1], "span": (0, 1)}
+    given |= {"outside": [0]} if boundary == "open" else {}
+    scene = SiteScene(f=[1 + sqrt(y) + left([y])[0] / 10], boundary=boundary, **given)
+    lattice = load_lattice(emit(scene, "rk:gauss1", target="c", solver=NEWTON))
+    assert lattice.run([[1.0], [2.0], [3.0]], 0.1, 1).ok
+    for place in range(3):
+        states = [[float(k != place)] for k in range(3)]
+        assert lattice.run(states, 0.1, 1).status is Status.NOT_FINITE
 
 
 def test_other_solvers_are_refused():

@@ -1,12 +1,13 @@
 from __future__ import annotations
 
+import math
 from fractions import Fraction
 
 import pytest
 
 from codegen.ir.ball_domain import BallDomain
 from codegen.ir.domain import FloatDomain, NotConverged, PreciseDomain, SeriesDomain
-from codegen.ir.interpret import interpret
+from codegen.ir.interpret import _solved, interpret
 from codegen.lower import lower, problem_for
 from codegen.method import Method
 from codegen.passes import optimise
@@ -78,3 +79,10 @@ def test_a_block_that_leaves_the_numbers_is_an_arithmetic_error():
     program = lower(scene, Method("rk", butcher("stiff", [[1]], [1])))
     with pytest.raises(ArithmeticError):
         interpret(program, scene, FloatDomain(1e5), start(scene, FloatDomain(1e5)), newton=False)
+
+
+@pytest.mark.parametrize("columns", [[[math.inf]], [[1.0, 0.0], [0.0, -math.inf]], [[math.nan]], [[0.0]]])
+def test_a_matrix_that_is_singular_or_not_finite_has_no_solution(columns):
+    """A division by an infinite pivot would give the change 0, as if the iteration had converged."""
+    with pytest.raises(NotConverged, match="singular or not finite"):
+        _solved(columns, [1.0] * len(columns))

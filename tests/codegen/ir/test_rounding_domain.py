@@ -46,3 +46,14 @@ def test_the_inverse_of_a_matrix_has_sizes():
     assert vanishes(a * p + b * r - 1)
     assert vanishes(a * q + b * s)
     assert not vanishes(a * p + b * r - 1 + D.rational(1, 10**20))
+
+
+def test_the_changes_of_two_arguments_do_not_cancel():
+    """The result x_i - x_j of a vector function keeps the sizes of both arguments, for all i and j."""
+    domain = RoundingDomain(0, 40)
+    third = domain.rational(1, 3)
+    for j in range(1, 40):
+        domain.plain.vector = lambda _, x, j=j: (x[0] - x[j],)
+        (difference,) = domain.vector("any", [third] * 40)
+        assert difference.value == 0
+        assert difference.size > 0.01 * third.size

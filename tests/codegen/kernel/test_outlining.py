@@ -6,14 +6,17 @@ from dataclasses import replace
 from functools import cache
 
 import pytest
+from sympy import Matrix, symbols
 
 from codegen import scenes
 from codegen.emitter import compile_method, emit_compiled
+from codegen.groups import SO3, Rotation
 from codegen.ir.domain import ExprDomain
 from codegen.ir.interpret import flatten
 from codegen.ir.number import Number
 from codegen.ir.operations import Linear
 from codegen.ir.program import Assign, Builder, Program
+from codegen.ir.scene_operations import Field
 from codegen.ir.values import Coefficient, Kind, Var
 from codegen.ir.verify import IllFormed
 from codegen.kernel import outlining, translate
@@ -22,6 +25,8 @@ from codegen.kernel.outlining import Outline
 from codegen.kernel.repeated_trees import Trees
 from codegen.loader import load
 from codegen.lower import lowering
+from codegen.scene import FieldScene, param
+from codegen.scene.run_time import with_runtime
 from orderconds.errors import InputError
 from orderconds.tableau import available
 from tests.compilations import compiled
@@ -71,15 +76,15 @@ def test_every_piece_is_called_more_than_once_and_takes_what_it_reads(scene, met
     assert len(made.kernel.outlined) > 3
     for function in made.kernel.outlined:
         assert source.count(f"{function.name}(") > 2  # its definition, and two calls
-        read = {n for let in function.body for n in symbols(let.value)} | {
-            n for x in function.outputs for n in symbols(x)
+        read = {n for let in function.body for n in symbols_of(let.value)} | {
+            n for x in function.outputs for n in symbols_of(x)
         }
         assert set(function.inputs) <= read
         assert read <= set(function.inputs) | {let.name for let in function.body}
 
 
-def symbols(root):
-    return {root.payload} if root.op == "sym" else {s for a in root.args for s in symbols(a)}
+def symbols_of(root):
+    return {root.payload} if root.op == "sym" else {s for a in root.args for s in symbols_of(a)}
 
 
 def test_short_steps_have_no_functions():
@@ -100,13 +105,18 @@ def twice(c1, c2):
     domain = ExprDomain()
     outline = Outline(program, scene, domain)
     env = {v: tuple(domain.space.sym(f"{v.name}{k}") for k in range(n)) for v, n in ((q, 9), (x, 3))}
-    for assign in program.body:
+    execute(outline, env)
+    return outline, flatten(Kind.GROUP, env[y])
+
+
+def execute(outline, env):
+    """Execute the program of an outline with symbols, and note the assignments."""
+    for assign in outline.program.body:
         assert isinstance(assign, Assign)
         args = [env[a] for a in assign.args]
-        results = assign.operation.evaluate(scene, domain, tuple(args))
+        results = assign.operation.evaluate(outline.scene, outline.domain, tuple(args))
         outline.trees.note(assign, args, results, -1)
         env.update(zip(assign.targets, results, strict=True))
-    return outline, flatten(Kind.GROUP, env[y])
 
 
 def test_trees_with_other_coefficients_are_one_function_of_them():
@@ -251,3 +261,35 @@ def test_a_call_does_not_read_a_symbol_that_simplification_removed():
     """Unknown k5_6 is an input of a repeated tree, but no expression of this step depends on it."""
     kernel = compile_method("lyapunov_exponents", "cg:lobatto3d5").kernel
     assert kernel.name
+
+
+def test_only_the_function_that_reads_a_removed_parameter_is_given_up():
+    """The field multiplies the parameter c by y0 - y1, which is zero at both points of this program."""
+    y = symbols("y:3", real=True)
+    first = param("c", 1) * (y[0] - y[1]) + sum((k + 1) * y[2] ** (k + 2) for k in range(8))
+    scene = FieldScene(
+        title="A field with a parameter",
+        group=SO3(),
+        action=Rotation(),
+        y=Matrix(y),
+        f=Matrix([first, y[1], y[2]]),
+        y0=[1, 0, 0],
+        span=(0, 1),
+    )
+    points, others = (
+        [Var(f"{x}{k}", kind) for k in range(2)] for x, kind in (("p", Kind.POINT), ("x", Kind.ALG))
+    )
+    do = Builder({"p0", "p1", "x0", "x1", "h"})
+    ends = [do.add(Field(), f"f{k}", p) for k, p in enumerate(points)]
+    ends += [do.exp(f"e{k}", x) for k, x in enumerate(others)]
+    program = Program("removed", (*points, *others), do.take(), tuple(zip("abcd", ends, strict=True)))
+    domain = ExprDomain()
+    outline = Outline(program, with_runtime(scene, ["c"]), domain)
+    symbol = domain.space.sym
+    env = {p: (symbol(f"a{k}"), symbol(f"a{k}"), symbol(f"b{k}")) for k, p in enumerate(points)}
+    env |= {x: tuple(symbol(f"x{k}_{i}") for i in range(3)) for k, x in enumerate(others)}
+    execute(outline, env)
+    roots = [x for end in ends for x in env[end]]
+    assert "c" not in set().union(*map(symbols_of, roots))
+    assert outline.run(roots, {}) is not None
+    assert [function.about for function in outline.outlined] == ["exp(x1)"]

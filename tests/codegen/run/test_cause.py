@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 import pytest
-from sympy import Matrix, symbols
+from sympy import Matrix, sqrt, symbols
 
 from codegen.emitter import compile_method, emit_compiled
 from codegen.groups.actions.left_multiplication import LeftMultiplication
@@ -95,6 +95,32 @@ def test_a_singular_matrix_has_its_own_status(solver, n, target, monkeypatch):
     made = compile_method(chain(n), "rk:gauss1", solver=solver)
     integrator = load(emit_compiled(made, target))
     assert failure(integrator, [0.0] * n, 2.0).status is Status.SINGULAR
+
+
+def rooted(n, shift):
+    """A field on R^n whose derivative is infinite where the first coordinate is -shift."""
+    x = symbols(f"x:{n}")
+    return FieldScene(
+        title="A field with a root",
+        group=Rn(n),
+        action=LeftMultiplication(),
+        y=Matrix(x),
+        f=Matrix([1 - shift / 2 + sqrt(x[0] + shift), *(x[0] + a for a in x[1:])]),
+        y0=[0.5] * n,
+        span=(0, 1),
+    )
+
+
+@pytest.mark.parametrize("target", TARGETS)
+@pytest.mark.parametrize(
+    ("solver", "shift", "start", "h"), [(NEWTON, 2, -1.0, -2.0), (SIMPLIFIED_NEWTON, 0, 0.0, 0.1)]
+)
+@pytest.mark.parametrize("n", [1, 2, 4])
+def test_an_infinite_matrix_is_no_solution(n, solver, shift, start, h, target, monkeypatch):
+    """The reciprocal of an infinite pivot is 0. The changes would be 0, as if the solver had converged."""
+    monkeypatch.setattr("codegen.run.continuation.Start.TRIES", 1)
+    integrator = load(emit_compiled(compile_method(rooted(n, shift), "rk:gauss1", solver=solver), target))
+    assert failure(integrator, [start, *[0.0] * (n - 1)], h).status is Status.NOT_FINITE
 
 
 @pytest.mark.parametrize("target", TARGETS)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import random
 
 import numpy as np
@@ -32,7 +33,7 @@ def in_c(wide):
 
 def in_python():
     found = needed("python", ["invert"])
-    namespace = {"fabs": abs}
+    namespace = {"fabs": abs, "isfinite": math.isfinite}
     exec("\n\n".join(found.texts), namespace)
 
     def inverted(rows):
@@ -69,3 +70,12 @@ def test_all_versions_round_alike(versions):
 def test_what_has_no_inverse_is_refused(versions):
     rows = [[float(i * j) for j in range(SIZE)] for i in range(SIZE)]
     assert [invert(rows) for invert in versions] == [None, None, None]
+
+
+@pytest.mark.parametrize("value", [math.inf, -math.inf, math.nan])
+def test_a_matrix_with_an_entry_that_is_not_finite_is_refused(versions, value):
+    """The reciprocal of an infinite pivot is 0, so the infinity could disappear."""
+    for place in range(SIZE * SIZE):
+        rows = next(matrices())
+        rows[place // SIZE][place % SIZE] = value
+        assert [invert(rows) for invert in versions] == [None, None, None]

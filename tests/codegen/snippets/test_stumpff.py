@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+import random
 from fractions import Fraction
+from functools import cache
 
 import mpmath
 import numpy as np
@@ -16,7 +18,7 @@ from codegen.integrator import StepFailed
 from codegen.ir.precision import DOUBLE, SINGLE, Precision
 from codegen.loader import load
 from codegen.snippets.graph import needed
-from codegen.snippets.stumpff import SETS, SMALL, SWITCH, TINY, coefficients, economised, limit
+from codegen.snippets.stumpff import ROUNDINGS, SETS, SMALL, SWITCH, TINY, coefficients, economised, limit
 
 POINTS = [
     *(
@@ -59,12 +61,24 @@ def reference(k: int, z: float) -> mpmath.mpf:
 
 
 def allowed(k: int, z: float, precision: Precision = DOUBLE) -> float:
-    """Two units in the last place, and what half a unit in sqrt z, that is one in z, causes."""
+    """The bound in the documentation of ROUNDINGS."""
     coarser = precision.unit / DOUBLE.unit
     with mpmath.workdps(60):
-        exact, unit = reference(k, z), mpmath.mpf(math.ulp(z)) * coarser
-        moved = max(abs(reference(k, x) - exact) for x in (z + unit, max(z - unit, 0)))
-        return float(2 * coarser * math.ulp(float(exact)) + moved)
+        exact, moves = reference(k, z), mpmath.mpf(1.5) * math.ulp(z) * coarser
+        moved = max(abs(reference(k, x) - exact) for x in (z + moves, max(z - moves, 0)))
+        return float(ROUNDINGS[k] * precision.unit * abs(exact) + moved)
+
+
+@cache
+def dense():
+    """Numbers z with the values of the functions and the bounds of the errors.
+
+    Just below twice a power of four, the rounding error of sqrt z has its largest effect, sqrt(2) units in z.
+    """
+    rng = random.Random(1)
+    points = [2.0 ** rng.uniform(-12, 40) for _ in range(150)] + [rng.uniform(0, 5) for _ in range(150)]
+    points += [2 * 4.0 ** rng.randrange(20) * rng.uniform(0.98, 1) for _ in range(100)]
+    return [(z, [reference(k, z) for k in range(4)], [allowed(k, z) for k in range(4)]) for z in points]
 
 
 @pytest.fixture(scope="module")
@@ -125,6 +139,15 @@ def test_stumpff_functions_are_accurate_from_zero_to_a_million(request, orders, 
         for k, value in zip(orders, call(orders, z), strict=True):
             error = abs(float(mpmath.mpf(value) - reference(k, z)))
             assert error <= allowed(k, z), (k, z, value, error / math.ulp(value))
+
+
+@pytest.mark.parametrize("target", ["compiled", "interpreted"])
+def test_between_these_points_the_functions_are_as_accurate(request, target):
+    call = request.getfixturevalue(target)
+    for z, references, bounds in dense():
+        for orders in ((0, 1, 2, 3), (0,), (1,), (2,), (3,)):
+            for k, value in zip(orders, call(orders, z), strict=True):
+                assert abs(value - references[k]) <= bounds[k], (k, z, value)
 
 
 def test_c_and_python_spell_the_same_roundings(compiled, interpreted):

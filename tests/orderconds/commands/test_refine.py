@@ -64,7 +64,7 @@ def test_digits_have_no_effect_without_a_proof_table_and_exact_coefficients_have
     plain = CliRunner().invoke(program, ["refine", str(source), "--json"])
     noted = CliRunner().invoke(program, ["refine", str(source), "--json", "--digits", "60"])
     assert (plain.stderr, noted.exit_code, noted.stdout) == ("", 0, plain.stdout)
-    assert noted.stderr.startswith("note: ") and "no [proof] table" in noted.stderr
+    assert re.match("note: .*no .proof. table", noted.stderr)
     assert json.loads(plain.stdout)["proof"] is None
 
 
