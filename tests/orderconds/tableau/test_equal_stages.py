@@ -9,8 +9,8 @@ import pytest
 from orderconds.ring import QQ
 from orderconds.tableau import Tableau, find
 from orderconds.tableau.equal_stages import equivalent, irreducible, stage_classes
-from orderconds.tableau.methods import RungeKutta
 from orderconds.tableau.method_properties import symmetric_step, symplectic_step
+from orderconds.tableau.methods import RungeKutta
 
 METHODS = ("gauss2", "gauss3", "lobatto3a3", "radau2a2", "rk4")
 
@@ -45,7 +45,8 @@ DIFFERENT = {
 def test_equal_and_unused_stages_do_not_change_a_property(name: str) -> None:
     assert irreducible(EQUIVALENT[name], QQ) == MIDPOINT
     assert equivalent(EQUIVALENT[name], MIDPOINT, QQ)
-    assert symplectic_step(EQUIVALENT[name], QQ) and symmetric_step(EQUIVALENT[name], QQ)
+    assert symplectic_step(EQUIVALENT[name], QQ)
+    assert symmetric_step(EQUIVALENT[name], QQ)
 
 
 @pytest.mark.parametrize("name", DIFFERENT)
