@@ -58,13 +58,15 @@ class Reader:
     def _admit(self, symbol: Parameter) -> None:
         """Record the default value of a parameter.
 
-        SceneError is raised for a reserved name, for the name of a coordinate, and for a parameter that
-        already has another default value.
+        SceneError is raised for a reserved name, for the name of a coordinate or signal, and for a parameter
+        that already has another default value.
         """
         self._allow(symbol.name)
         value = Number.rational(*symbol.default)
         if symbol.name in self.coordinates:
             raise self._taken(f"the parameter {symbol.name} has the name of a coordinate")
+        if symbol.name in self.signals:
+            raise self._taken(f"the signal {symbol.name} has the name of a parameter")
         if self.defaults.setdefault(symbol.name, value) != value:
             raise self._taken(f"the parameter {symbol.name} has two default values")
 

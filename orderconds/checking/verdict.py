@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import replace
 from os import PathLike
@@ -118,6 +119,8 @@ def _bounds(order: object, tolerance: object, limits: object) -> tuple[int | Non
     """Return ``order`` and ``tolerance`` as numbers. Raise InputError if an argument is not valid."""
     if limits is not None and not isinstance(limits, Limits):
         raise InputError(described(limits), where="limits", expected="Limits")
+    if isinstance(limits, Limits) and limits.seconds is not None:
+        real(limits.seconds, "seconds", (0, math.inf))
     return (
         None if order is None else integer(order, "order", CONDITION_ORDER),
         None if tolerance is None else real(tolerance, "tolerance", TOLERANCE),

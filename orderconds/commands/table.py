@@ -39,9 +39,10 @@ def command(methods: tuple[str, ...], write: str | None, against: str | None, as
     the family in which the tableau claims the highest order. With --check FILE, the command exits with 1 if
     the table in FILE is out of date.
 
-    For each given METHOD, print its order and its Butcher tableau. METHOD is the name of a tableau, or
-    FAMILY:NAME. FAMILY is the family in which the order is computed. For a commutator-free method or a
-    composition, the Butcher tableau describes the method on vector spaces only.
+    For each given METHOD, print its order and its Butcher tableau. METHOD is TABLEAU or FAMILY:TABLEAU.
+    TABLEAU is a file, or the name of a tableau of the library. FAMILY is the family in which the order is
+    computed. For a commutator-free method or a composition, the Butcher tableau describes the method on
+    vector spaces only.
 
     \b
     Examples:
@@ -98,18 +99,18 @@ class Butcher(TypedDict):
 def butcher(method: str) -> Butcher:
     """Return the order and the Butcher tableau of a method.
 
-    ``method`` is the name of a tableau, or FAMILY:NAME. Without FAMILY, the family with
-    the highest claimed order is used.
+    ``method`` is TABLEAU or FAMILY:TABLEAU, where TABLEAU is a file or the name of a tableau. Without FAMILY,
+    the family with the highest claimed order is used.
 
     >>> butcher("vrkmk(1):kutta3")["order"], butcher("rkmk(0):kutta3")["order"]
     (3, 2)
     """
     from orderconds.checking import check
-    from orderconds.tableau import Tableau, find
+    from orderconds.tableau import Tableau
     from orderconds.tableau.butcher_text import butcher_text
 
     family, _, name = method.rpartition(":")
-    tableau = Tableau.load(find(name))
+    tableau = Tableau.load(name)
     lines = butcher_text(tableau)
     main = min(tableau.claims.orders, key=_first, default=None)
     label = family or (main.label if main else None)

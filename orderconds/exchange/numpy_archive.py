@@ -128,6 +128,8 @@ def read(content: bytes, where: str) -> Data:
     """
     import numpy as np
 
+    if not zipfile.is_zipfile(io.BytesIO(content)):
+        raise TableauError("no zip archive", where=where, expected="an .npz archive")
     try:
         with np.load(io.BytesIO(content), allow_pickle=False) as archive:
             _require_small(archive.zip, where)

@@ -159,21 +159,22 @@ def position(name: str) -> int:
 
 
 def family_class(name: str) -> type[Family]:
-    """Return the class of the family ``name``. If the name is not registered, the function looks for the
-    name in the entry points of installed packages.
+    """Return the class of the family ``name``. The name may contain ``-`` instead of ``_``. If the name is
+    not registered, the function looks for the name in the entry points of installed packages.
 
     Raises :class:`~orderconds.errors.UnknownName` if no family has this name.
 
     >>> family_class("vcg").needs_nonzero_weights
     True
     """
-    if name not in _registered and name in BUILT_IN:
+    key = name.replace("-", "_")
+    if key not in _registered and key in BUILT_IN:
         # The decorator @register in the module registers the family during the import.
-        import_module(BUILT_IN[name])
-        assert name in _registered, (
-            f"{BUILT_IN[name]} has no class with the decorator @register and the name {name!r}"
+        import_module(BUILT_IN[key])
+        assert key in _registered, (
+            f"{BUILT_IN[key]} has no class with the decorator @register and the name {key!r}"
         )
-    kind = _registered.get(name) or _installed(name)
+    kind = _registered.get(key) or _installed(key)
     if kind is None:
         import difflib
 
@@ -219,7 +220,7 @@ def get(name: str, **options: int | None) -> Family:
     """
     label = _LABEL.fullmatch(text(name, "family", "the name of a family, such as rk"))
     base, argument = label.groups() if label else (name, None)
-    family = family_class(base.replace("-", "_"))
+    family = family_class(base)
     accepted = tuple(inspect.signature(family).parameters)
     if argument is not None and not accepted:
         raise InputError(f"family {base} has no options, but {name!r} contains an option", expected=base)

@@ -32,7 +32,7 @@ from orderconds.families.base import Family, expect
 from orderconds.families.registry import register
 from orderconds.families.relations import Polynomial, with_relations
 from orderconds.families.splitting import SplittingFamily, two_part_formula
-from orderconds.families.stage_form import StageForm
+from orderconds.families.stage_form import StageForm, refuse_explicit
 from orderconds.formula import Formula, total
 from orderconds.ring.protocol import Element, Ring
 from orderconds.tableau.products import Method, Splitting
@@ -114,7 +114,8 @@ class NystroemFamily(Family):
     def in_stages(self, stages: int, *, explicit: bool = False) -> StageForm:
         """Return the unknowns of a splitting T + V. Each of the ``stages`` stages has two unknowns, the step
         sizes of the flows of T and V."""
-        form = SplittingFamily().in_stages(stages, explicit=explicit)
+        refuse_explicit(self.label(), explicit)
+        form = SplittingFamily().in_stages(stages)
         return StageForm(form.names, lambda values, ring: _nystroem(form.method(values, ring)))
 
     @classmethod

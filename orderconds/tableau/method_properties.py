@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 
 from orderconds.ring.protocol import Element, Ring
+from orderconds.tableau.equal_stages import equivalent, irreducible
 from orderconds.tableau.methods import PartitionedRungeKutta, RungeKutta
 from orderconds.tableau.products import AdjointComposition, Magnus, Splitting
 from orderconds.tableau.reversal import symmetric_exponents
@@ -60,9 +61,10 @@ def diagonally_implicit(method: RungeKutta, ring: Ring) -> Verdict:
 
 
 def symplectic(method: RungeKutta, ring: Ring) -> Verdict:
-    """Return True if the method is symplectic (HLW Theorem VI.4.3).
+    """Return True if the tableau satisfies the condition of symplecticity (HLW Theorem VI.4.3).
 
-    The condition on ``A`` and ``b`` is: b_i a_ij + b_j a_ji = b_i b_j for all i and j.
+    The condition on ``A`` and ``b`` is: b_i a_ij + b_j a_ji = b_i b_j for all i and j. See
+    :func:`symplectic_step` for tableaux with equal or unused stages.
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss2 = Tableau.load(find("gauss2"))
@@ -73,6 +75,20 @@ def symplectic(method: RungeKutta, ring: Ring) -> Verdict:
     return _all(
         ring.is_zero(b[i] * A[i][j] + b[j] * A[j][i] - b[i] * b[j]) for i in range(s) for j in range(i, s)
     )
+
+
+def symplectic_step(method: RungeKutta, ring: Ring) -> Verdict:
+    """Return True if the method is symplectic. A method is symplectic if and only if its irreducible tableau
+    satisfies the condition of :func:`symplectic` (HLW Theorem VI.7.10).
+
+    >>> from orderconds.ring import QQ
+    >>> half, zero = QQ.rational(1, 2), QQ.zero
+    >>> midpoint_twice = RungeKutta(((half, zero), (half, zero)), (half, half))
+    >>> symplectic(midpoint_twice, QQ), symplectic_step(midpoint_twice, QQ)
+    (False, True)
+    """
+    verdict = symplectic(method, ring)
+    return verdict if verdict is True else symplectic(irreducible(method, ring), ring)
 
 
 def symplectic_pair(method: PartitionedRungeKutta, ring: Ring) -> Verdict:
@@ -95,10 +111,10 @@ def symplectic_pair(method: PartitionedRungeKutta, ring: Ring) -> Verdict:
 
 
 def symmetric(method: RungeKutta, ring: Ring) -> Verdict:
-    """Return True if the method is symmetric (HLW Theorem V.2.3).
+    """Return True if the tableau satisfies the condition of symmetry (HLW Theorem V.2.3).
 
     For s stages, the condition on ``A`` and ``b`` is: a_{s+1-i,s+1-j} + a_ij = b_j for all i and j. The
-    function tests only the given numbering of the stages.
+    function tests only the given numbering of the stages; see :func:`symmetric_step`.
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss3 = Tableau.load(find("gauss3"))
@@ -108,6 +124,24 @@ def symmetric(method: RungeKutta, ring: Ring) -> Verdict:
     A, b, s = method.A, method.b, method.s
     mirrored = (ring.is_zero(A[s - 1 - i][s - 1 - j] + A[i][j] - b[j]) for i in range(s) for j in range(s))
     return _all([*mirrored, *(_equal(b[i], b[s - 1 - i], ring) for i in range(s // 2))])
+
+
+def symmetric_step(method: RungeKutta, ring: Ring) -> Verdict:
+    """Return True if the method is symmetric: a step of size -h undoes a step of size h. The numbering of the
+    stages has no effect. The method is symmetric if and only if it equals its adjoint method, which has the
+    entries b_j - a_ij and the weights b_j.
+
+    >>> from orderconds.ring import QQ
+    >>> half, zero = QQ.rational(1, 2), QQ.zero
+    >>> midpoint_and_unused = RungeKutta(((half, zero), (QQ.one, QQ.one)), (QQ.one, zero))
+    >>> symmetric(midpoint_and_unused, QQ), symmetric_step(midpoint_and_unused, QQ)
+    (False, True)
+    """
+    verdict = symmetric(method, ring)
+    if verdict is True:
+        return True
+    A = tuple(tuple(y - x for x, y in zip(row, method.b, strict=True)) for row in method.A)
+    return True if equivalent(method, RungeKutta(A, method.b), ring) else verdict
 
 
 def stiffly_accurate(method: RungeKutta, ring: Ring) -> Verdict:
@@ -137,8 +171,8 @@ def fsal(method: RungeKutta, ring: Ring) -> Verdict:
 DEFINITIONS: dict[str, Callable[[RungeKutta, Ring], Verdict]] = {
     "explicit": explicit,
     "diagonally_implicit": diagonally_implicit,
-    "symplectic": symplectic,
-    "symmetric": symmetric,
+    "symplectic": symplectic_step,
+    "symmetric": symmetric_step,
     "fsal": fsal,
     "stiffly_accurate": stiffly_accurate,
 }

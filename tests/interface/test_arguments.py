@@ -11,6 +11,7 @@ import pytest
 import codegen
 import orderconds
 from orderconds import Tableau, check, construct, convert, derive, refine, solve, trees
+from orderconds.checking.limits import Limits
 from orderconds.errors import InputError
 
 EULER: tuple[Any, Any] = ([[0]], [1])
@@ -46,6 +47,10 @@ WRONG: dict[str, tuple[Call, str]] = {
         "tolerance: -1; expected a number from 0",
     ),
     "check with tolerance NaN": (lambda: check("rk4", tolerance=float("nan")), "tolerance: nan"),
+    "check for NaN seconds": (
+        lambda: check("rk4", limits=Limits(seconds=float("nan"))),
+        "seconds: nan of type float; expected a number from 0",
+    ),
     "check with a number of limits": (lambda: check("rk4", limits=3), "limits: 3; expected Limits"),  # type: ignore[arg-type]
     "check a family by number": (lambda: check("rk4", family=3), "family: 3; expected the name"),  # type: ignore[arg-type]
     "derive an order as text": (lambda: derive("rk", "3"), "order: '3' of type str"),  # type: ignore[arg-type]

@@ -173,6 +173,7 @@ def test_written_out_conditions_have_the_values_of_the_engine(family: str, expli
         (["cf", "--order", "2", "--stages", "2"], "stages: "),
         (["rk(1)", "--order", "2"], "rk"),
         (["rk", "--order", "2", "--explicit"], "--stages"),
+        (["rkn", "--order", "2", "--stages", "2", "--explicit"], "family rkn has no explicit methods"),
         (["rk", "--order", "2", "--json", "--format", "latex"], "--json and --format latex"),
         (["rk", "--order", "2", "-p", "3"], "--order is given twice"),
     ],

@@ -130,6 +130,18 @@ def test_the_numbers_of_table_three_two_c() -> None:
     assert weights == pytest.approx([*printed, *printed[2::-1]], rel=1e-15)
 
 
+def test_a_method_can_be_a_file(tmp_path: Path) -> None:
+    path = tmp_path / "mine.json"
+    path.write_text(
+        '{"name": "mine", "family": "rk", "A": [["1/2"]], "b": ["1"], "order": 2}', encoding="utf-8"
+    )
+    for label in ("rk", "vcg"):
+        (record,) = json.loads(run(f"{label}:{path}", "--json").output)
+        assert (record["method"], record["order"]) == (f"{label}:{path}", 2)
+    (record,) = json.loads(run(str(path), "--json").output)
+    assert record["method"] == f"rk:{path}"
+
+
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [

@@ -28,6 +28,13 @@ def test_an_archive_that_swells_is_refused_unread(tmp_path: Path) -> None:
         read_data((tmp_path / "x.npz").read_bytes(), "numpy", "x.npz")
 
 
+@pytest.mark.parametrize("content", [b"", b"no archive", b"\x80\x04N."])
+def test_a_file_that_is_no_archive_is_named(content: bytes) -> None:
+    with pytest.raises(InputError) as refused:
+        read_data(content, "numpy", "x.npz")
+    assert str(refused.value) == "x.npz: no zip archive; expected an .npz archive"
+
+
 def test_floats_that_are_not_what_is_spelled_beside_them_are_refused(tmp_path: Path) -> None:
     np.savez(tmp_path / "x.npz", A=np.zeros((1, 1)), b=np.ones(1), b_exact=np.array(["1/2"]))
     with pytest.raises(

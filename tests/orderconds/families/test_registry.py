@@ -154,6 +154,13 @@ def test_a_family_that_was_forgotten_is_unknown() -> None:
     families.register(Quadrature)
 
 
+@pytest.mark.parametrize("name", ["rkmk(-1)", "rk-mk"])
+def test_an_unknown_name_is_quoted_as_it_was_given(name: str) -> None:
+    with pytest.raises(UnknownName) as refused:
+        families.get(name)
+    assert refused.value.found == f"unknown family {name!r}"
+
+
 @pytest.mark.parametrize(
     ("attributes", "message"),
     [
