@@ -26,7 +26,9 @@ that return the NaN. Other modules in double precision call :mod:`math`, which r
 
 
 def ieee(function: str, *args: float) -> float:
-    """Return the value of a function of the module :mod:`math`, or the infinity or NaN that C returns.
+    """Return the value of a function of the module :mod:`math`.
+
+    If :mod:`math` raises OverflowError or ValueError, return the infinity or NaN that C returns.
 
     >>> ieee("exp", 1000.0), ieee("sinh", -1000.0), ieee("log", 0.0), ieee("sin", math.inf)
     (inf, -inf, -inf, nan)
