@@ -144,7 +144,7 @@ class ExponentialAction(VectorFunction):
         a, e = (self.matrix(x[:entries], space.zero) for x in (args, rates))
         y, v = args[entries:], rates[entries:]
         zeros = [space.zero] * n
-        # The block matrix has the rows (A, A') and (0, A).
+        # ``block`` becomes the matrix [[a, e], [0, a]], where ``e`` is the derivative of ``a``.
         block = [x for i in range(n) for x in (*a[n * i : n * i + n], *e[n * i : n * i + n])]
         block += [x for i in range(n) for x in (*zeros, *a[n * i : n * i + n])]
         larger = ExponentialAction(2 * n)
@@ -213,7 +213,7 @@ class ExponentialAction(VectorFunction):
                 weight *= k
                 # This step of Horner's rule needs no division. The division by m! follows after the loop.
                 p = [x + weight * z for x, z in zip(_product(rows, a, p), y, strict=True)]
-            # The last step of Horner's rule divides p by ``weight`` = m!.
+            # The new y is y + B p/m!. Here B is the matrix ``a``, m is ``degree``, and ``weight`` is m!.
             y = [z + x for z, x in zip(y, _product(rows, a, [x / weight for x in p]), strict=True)]
         return tuple(y)
 
@@ -259,8 +259,9 @@ class ExponentialAction(VectorFunction):
         """
         entries, rows = len(self.places), self.rows
         total = term = list(args[entries:])
-        # The power series in y have N = n (``ring.order`` + 1) coefficients in all. By linear algebra, if
-        # A^k y = 0 for some k, then A^N y = 0. The loop finds this zero term, because N < ``longest``.
+        # The vector y has n entries with ``ring.order`` + 1 coefficients each, in total N coefficients. By
+        # linear algebra, if A^k y = 0 for some k, then A^N y = 0. The loop finds this zero term, because
+        # N = n (``ring.order`` + 1) is less than ``longest``.
         longest = self.n * (ring.order + 2)
         for k in range(1, longest + 1):
             factor = ring.rational(1, k)

@@ -194,7 +194,7 @@ class _Reader:
         # ``above`` contains the factors of the numerator, and ``below`` the factors of the divisor.
         above, below = [], []
         for a in _sorted(e):
-            # A quotient a/b is the product a b^-1 in sympy.
+            # A factor with a negative exponent, such as y^-2, becomes the factor y^2 of the divisor.
             if isinstance(a, sympy.Pow) and a.exp.is_Rational and a.exp < 0:
                 # Every branch of a Piecewise is evaluated, so unused branches must not divide by zero.
                 below.append(self._power(self.guarded(self.node(a.base), 1), -a.exp, a))

@@ -38,7 +38,9 @@ def divided(a: float, b: float) -> float:
 
 
 def ieee(function: str, *args: float) -> float:
-    """Return the value of a function of the module :mod:`math`, or the infinity or NaN that C returns.
+    """Return the value of a function of the module :mod:`math`.
+
+    If :mod:`math` raises OverflowError or ValueError, return the infinity or NaN that C returns.
 
     >>> ieee("exp", 1000.0), ieee("sinh", -1000.0), ieee("log", 0.0), ieee("sin", math.inf)
     (inf, -inf, -inf, nan)

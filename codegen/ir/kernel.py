@@ -104,9 +104,10 @@ class Newton:
 
     @property
     def period(self) -> int:
-        """The number of steps after which ``matrix`` is inverted again, or 0 if ``residuals`` is false.
+        """For equations r(u) = 0, the number of steps after which ``matrix`` is inverted again.
 
-        If ``residuals`` is false, other rules decide when ``matrix`` is inverted again (see :class:`Newton`).
+        For equations u = g(u) (``residuals`` is false), the value is 0, because other rules decide when
+        ``matrix`` is inverted again (see :class:`Newton`).
         """
         # The inversion of an n x n matrix costs O(n^3) operations. If one inversion serves n/2 steps of the
         # integrator, the cost of inversions is only O(n^2) operations in each step.

@@ -129,10 +129,9 @@ def block_matrix(n: int, level: int, numbers: Sequence[arb]) -> list[list[arb]]:
 
 
 def _first_row(rows: Sequence[Sequence[arb]], level: int) -> list[arb]:
-    """Return the entries of a jet (a matrix with its derivatives). ``rows`` are the rows of its block matrix.
+    """Return the entries of the jet for which :func:`block_matrix` returns ``rows``.
 
-    The docstring of :func:`block_matrix` defines this block matrix. The first row of blocks contains all
-    matrices of the jet.
+    A jet is a matrix with its derivatives.
     """
     if level == 0:
         return [x for row in rows for x in row]

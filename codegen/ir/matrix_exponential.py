@@ -196,8 +196,8 @@ def _squared(n: int, level: int, total: list[float], squarings: int, growth: flo
     of the computed square of E is at most about 2 |E| e + n^2 u |E|^2, where u is the unit roundoff.
     """
     size, unit = n * n, 2.0**-53
-    # ``error`` is a bound of the error of the first matrix of the jet, ``total[:size]``. The next line
-    # is the bound for the matrix that has not been squared yet.
+    # The matrix E is ``total[:size]``, and ``error`` is the bound e. The next line is the bound before the
+    # first squaring.
     error = (n + 8) * unit * n
     for _ in range(squarings):
         # Both ``growth`` and the Frobenius norm are bounds of the spectral norm of ``total[:size]``.
@@ -223,9 +223,9 @@ def in_digits(context: Any, n: int, level: int, a: Sequence[Scalar]) -> tuple[Sc
 
 
 def over_series(ring: Any, longest: int, n: int, level: int, a: Sequence[Scalar]) -> tuple[Scalar, ...]:
-    """Return the exponential of a jet. The entries of the matrices of the jet are power series.
+    """Return the exponential of a jet of 2^``level`` matrices (see the module docstring).
 
-    ``a`` contains the entries of the 2^``level`` matrices of the jet (see the module docstring).
+    ``a`` contains the entries of these n x n matrices. Each entry is a power series.
 
     If the Taylor series of the exponential has more than ``longest`` non-zero terms, ArithmeticError is
     raised.

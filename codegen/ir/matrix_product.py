@@ -67,8 +67,8 @@ class BilinearFunction(VectorFunction):
         # The derivative of f(a, b) with respect to an entry of a is f(E, b), and with respect to an entry of
         # b, it is f(a, E). The entry of E at the same position is 1, and all other entries of E are 0.
         unit = [space.one if k == argument else space.zero for k in range(len(args))]
-        # If ``args[argument]`` is an entry of a, ``half`` selects the entries of a from ``args``. Otherwise
-        # ``half`` selects the entries of b.
+        # ``half`` selects the half of ``args`` that contains ``args[argument]``. The first half contains the
+        # first matrix, and the second half contains the second matrix.
         half = slice(0, self.size) if argument < self.size else slice(self.size, None)
         changed = list(args)
         changed[half] = unit[half]
@@ -88,7 +88,7 @@ class BilinearFunction(VectorFunction):
         return None
 
     def in_doubles(self, args: Sequence[float]) -> tuple[float, ...]:
-        """Return the entries of f(a, b), where f is this function and ``args`` are doubles."""
+        """Return the entries of f(a, b) as doubles. ``args`` are the entries of a, then the entries of b."""
         return self.arithmetic(args)
 
     def in_digits(self, context: Any, digits: int, args: Sequence[Scalar]) -> tuple[Scalar, ...]:

@@ -53,7 +53,7 @@ class Factor:
     @property
     def order(self) -> tuple[str, float, str]:
         """The sort key of the factor: its function, then its scale."""
-        # Two different scales may round to the same double. Then the exact texts determine the order.
+        # Two different scales may round to the same double, so the key also contains the exact scale as text.
         return self.function, float(self.scale), self.scale.text()
 
 
@@ -85,7 +85,7 @@ class Multiplier:
             # At 0, POWER has the value 0, EXP has the value 1, and PHI and BERNOULLI have the limit 1.
             return cls.constant(Number.rational(0) if function == POWER else ONE)
         if function == POWER:
-            # The result ``scale`` * z is the factor z with the coefficient ``scale``.
+            # ``Factor(POWER, ONE)`` represents z, and ``scale`` is the coefficient of z.
             return cls({((Factor(POWER, ONE), 1),): scale})
         return cls({((Factor(function, scale), 1),): ONE})
 
@@ -233,18 +233,18 @@ class Nonlinearity:
 
 @dataclass(frozen=True)
 class ModeStep:
-    """One step on Fourier modes.
+    """One step of u' = L u + N(u), computed on the Fourier modes of u. Here u is a periodic function of x.
 
-    - ``tables`` contains the coefficients.
-    - ``evaluations`` contains the evaluations of the nonlinear part N, in the order of execution.
-    - ``result`` contains the terms whose sum is the new state.
-    - ``nonlinearity`` is the nonlinear part N.
-    - ``wave`` is the name of the symbol for the wave number.
-    - ``space`` is the name of the symbol for x.
-    - The kernel ``symbol`` computes an eigenvalue of the linear operator L from the wave number. The
-      outputs are the real part and, if L may have eigenvalues that are not real, the imaginary part.
-    - ``length`` computes the length of the periodic interval.
-    - ``initial`` computes the initial state at the point x.
+    - ``tables`` contains the coefficients of the terms in ``evaluations`` and ``result``.
+    - ``evaluations`` contains the evaluations of N, in the order of execution.
+    - The new state is the sum of the terms in ``result``.
+    - ``nonlinearity`` is N.
+    - ``wave`` is the name of the wave number in the kernel ``symbol``.
+    - ``space`` is the name of x in the kernels ``initial`` and ``nonlinearity.formulas``.
+    - The kernel ``symbol`` computes the eigenvalue of L for a wave number. The outputs are the real part
+      and, if L may have eigenvalues that are not real, the imaginary part.
+    - The kernel ``length`` computes the length of the period of u.
+    - The kernel ``initial`` computes the initial value of u at a point x.
     """
 
     tables: tuple[Table, ...]

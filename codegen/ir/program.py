@@ -126,9 +126,9 @@ class Program:
     statements are executed once for each substep.
 
     If ``frame`` is :data:`BODY`, the statements use the body momentum m = Ad*_q mu in place of mu. Let q' and
-    m' be the new values of q and m. In exact arithmetic, Ad*_{q^-1} m is mu, and the new value of mu is
-    Ad*_{q'^-1} m'. The new value is computed as mu + (Ad*_{q'^-1} m' - Ad*_{q^-1} m). The two terms of the
-    difference have nearly equal rounding errors, which nearly cancel.
+    m' be the new values of q and m. In exact arithmetic, mu = Ad*_{q^-1} m, and the new value of mu is
+    mu' = Ad*_{q'^-1} m'. Therefore mu' is also mu + (Ad*_{q'^-1} m' - Ad*_{q^-1} m). The program computes
+    this sum, because the rounding errors of the two terms in parentheses are nearly equal and nearly cancel.
     """
 
     name: str

@@ -149,9 +149,9 @@ class RoundingDomain:
 
         The size of a result r is |r| + |q|, where q is a difference quotient that estimates the effect of the
         rounding errors of the arguments on r. In the difference quotient, all arguments change at the same
-        time, because one difference quotient for each argument would be expensive. All arguments change by
-        different multiples of their sizes (:data:`FACTORS`). With equal multiples, the changes of x and y
-        could cancel in a result such as x - y.
+        time, because one difference quotient for each argument would be expensive. Argument k changes by its
+        size times a factor that depends on k (:data:`FACTORS`). With equal factors, the changes of x and y could cancel in a
+        result such as x - y.
         """
         values = [x.value for x in args]
         results = self.plain.vector(function, values)
@@ -183,5 +183,6 @@ class RoundingDomain:
                 continue
             if all(isinstance(x, self.context.mpf) and self.context.isfinite(x) for x in moved):
                 return [abs(a - b) / self._shift for a, b in zip(moved, values, strict=True)]
-        # If neither increment gives a difference quotient, |f(0)| is returned in place of |f'(0)|.
+        # Neither step gave finite real numbers. The estimate |f(0)| assumes that a small relative change of
+        # the arguments changes f by the same relative amount.
         return [abs(x) for x in values]

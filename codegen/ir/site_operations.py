@@ -87,13 +87,14 @@ class Corrected(Operation):
 
 @dataclass(frozen=True)
 class Wedge(Operation):
-    """The vector (p f - q gamma)/s, for a covector gamma, a vector f and numbers p, q and s.
+    """The vector with the components (p f_i - q gamma_i)/s, for a vector f and a covector gamma.
 
-    For s = 0 the result is zero.
+    Here p, q and s are numbers. For s = 0 the result is zero.
 
-    The bivector gamma wedge f maps a covector alpha to the vector <gamma, alpha> f - <f, alpha> gamma.
-    The module :mod:`codegen.kernel.site_sums` sets p = <gamma, alpha>, q = <f, alpha> and s = |gamma|^2. For
-    these numbers, the result is the bivector (gamma wedge f)/|gamma|^2 applied to alpha.
+    A covector is identified with the vector that has the same components. The bivector gamma wedge f maps a
+    covector alpha to the vector <gamma, alpha> f - <f, alpha> gamma. The module
+    :mod:`codegen.kernel.site_sums` sets p = <gamma, alpha>, q = <f, alpha> and s = |gamma|^2. For these
+    numbers, the result is the bivector (gamma wedge f)/|gamma|^2 applied to alpha.
     """
 
     name = "wedge"

@@ -128,12 +128,14 @@ class SiteNewton:
     the first site and the last site lack one neighbour each. The symbol with the name ``exists[k]`` is 1 for
     a site with neighbour k, and 0 for a site without neighbour k.
 
-    ``matrix``, ``residual`` and ``border`` are indices of rows in the workspace:
+    ``matrix``, ``residual`` and ``border`` are indices of rows in the workspace. A row of the workspace
+    contains one number for each site.
 
     - The matrix occupies 3 ``size``^2 rows from row ``matrix`` on. The blocks of one site are contiguous.
     - The residuals occupy ``size`` rows from row ``residual`` on.
-    - In a periodic chain, the border (the columns for the unknowns of the last site) occupies ``size``^2 rows
-      from row ``border`` on.
+    - In a periodic chain, the border occupies ``size``^2 rows from row ``border`` on. The border consists of
+      the ``size`` columns of the matrix that belong to the unknowns of the last site. Each column contains
+      ``size`` numbers for each site.
     """
 
     kernel: Kernel
@@ -175,9 +177,9 @@ class SiteNewton:
         return (read + n * n + n, written + n) if periodic else (read, written)
 
     def _substituted(self) -> tuple[int, int]:
-        """Return the total memory traffic of a forward and a back substitution with one right-hand side.
+        """Return the pair (numbers read per site, numbers written per site).
 
-        The result is the pair (numbers read, numbers written) for each site.
+        Both counts are totals for a forward and a back substitution with one right-hand side.
         """
         n = self.size
         # The forward and the back substitution each read and write the n numbers of the right-hand side.

@@ -226,7 +226,7 @@ class _Loop:
                 # The terms a_0 a_n and a_n a_0 are equal, so one of them is doubled.
                 return self.inner(a, a) + space.const(Number.rational(2)) * (self.value(a.term(0)) * x)
             case Slope(a=a):
-                # Let s be the variable of the series a. The series s a' has the coefficients n a_n.
+                # If a(s) is the sum of a_n s^n, then s times a'(s) is the sum of n a_n s^n.
                 return space.sym(ORDER) * _known(self.known[id(a)])
             case Quotient(a=a, b=b):
                 x = self.known[id(a)]
@@ -268,8 +268,8 @@ class _Loop:
                 return space.call(CHOOSE, self.value(test.term(0)), *pair)
             case Angle(slopes=slopes, rates=rates):
                 pairs = zip(slopes, rates, strict=True)
-                # If x or y is constant, the derivative of x or y is zero. Therefore the term with this
-                # derivative is omitted.
+                # The derivative of the angle is (x y' - y x')/(x^2 + y^2). If y is constant, the term with y'
+                # is omitted. If x is constant, the term with x' is omitted.
                 means = [self.beyond(s, r) for s, r in pairs if self.known[id(s)] is not None]
                 if len(means) == 2:
                     return space.sym(INVERSE) * (means[0] - means[1])

@@ -195,9 +195,9 @@ class Square(Series):
 
 
 class Slope(Series):
-    """The product s a' of the time s from the beginning of the step and the derivative a' of a series.
+    """The product of s and a'(s) for a series a(s), where s is the time since the beginning of the step.
 
-    Coefficient n of s a' is n a_n, where a_n is coefficient n of the series.
+    Coefficient n of this product is n a_n, where a_n is coefficient n of the series a.
     """
 
     def __init__(self, domain: Domain, a: Series) -> None:
@@ -357,10 +357,10 @@ class Start(Series):
         self.a, self.function = a, function
 
     def following(self, n: int) -> Coefficient:
-        """Return coefficient n of the constant series f(a_0).
+        """Return coefficient n of the constant series f(a_0): f(a_0) for n = 0, and None for n > 0.
 
         The function f is ``function``, and a_0 is the value of the series a at the beginning of the step.
-        For n > 0, the coefficient is zero, and the result is None.
+        None represents a coefficient that is identically zero.
         """
         return self.function(self.a.term(0)) if n == 0 else None
 
