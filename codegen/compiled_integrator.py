@@ -202,9 +202,9 @@ class _Buffers:
         self.size, self.null = size, ffi.NULL
         self.events: list[tuple[int, float, int, list[float]]] = []
         # Let n be the number of event functions. When the C code calls the event functions, ``write`` first
-        # empties the arrays that store events. Then the C code stores at most n new events. After that, n
-        # entries must still be free, because otherwise the C code ends the run. Therefore the arrays have
-        # n + n = 2 n entries.
+        # empties the arrays that store events. Then the C code stores at most n new events, and it ends the
+        # run if fewer than n entries are left for the events of the next step. With 2 n entries in the
+        # arrays, at least n entries are left.
         self.room = 2 * interface.events
 
         def write(t: float, state: Any, array: Any, data: Any) -> None:

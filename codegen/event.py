@@ -105,5 +105,6 @@ class EventValues:
         except BaseException as error:  # a Python exception must not pass through C code
             self.failure = self.failure or error
             values = [float("nan")] * len(self.events)
-        # Emitted code reads ``size`` values. Each unused value is always 1 and causes no event.
+        # Emitted code reads ``size`` values, so ones are appended to the list. The constant value 1 has no
+        # zero and causes no event.
         return values + [1.0] * (self.size - len(values))

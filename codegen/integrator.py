@@ -213,7 +213,8 @@ class Integrator(RunToEnd):
 
         TypeError is raised if the module was emitted without ``adaptive=True``. StepFailed is raised if a
         step fails. If ``limit`` steps are too few, StepFailed is raised with the status ``LIMIT``. If
-        ``t_eval`` was given, ``arrival.states`` of this error are the states at the times that were reached.
+        ``t_eval`` is given, the attribute ``arrival.states`` of a StepFailed error contains the states at
+        those times in ``t_eval`` that the run reached.
         """
         if not self.interface.adaptive:
             raise TypeError("this module has no adaptive run; emit it with adaptive=True")
@@ -421,8 +422,8 @@ class Integrator(RunToEnd):
     ) -> tuple[Sequence[float], Sequence[Sequence[float]]]:
         """Return the state after ``steps`` steps of size h, and a sequence of states.
 
-        The sequence contains the initial state and every ``stride``-th state after it, or no state if
-        ``stride`` is 0.
+        The sequence contains the initial state and every ``stride``-th state after it. If ``stride`` is 0,
+        the sequence is empty.
         """
 
     @abstractmethod

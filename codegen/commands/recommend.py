@@ -177,8 +177,8 @@ def unreached(result: Recommendation) -> str:
         # The error of a single run can be small by accident (codegen.lab.efficiency.race).
         missed += " in two consecutive runs"
         least += (
-            ", but this run is not confirmed: the next run, with half the step size or a tenth of the "
-            "tolerance, failed, was not made, or had more than twice the requested error"
+            ", but this run is not confirmed, because the next run failed, was not made, or had more than "
+            "twice the requested error (the next run has half the step size or a tenth of the tolerance)"
         )
     return f"{asked.scene}: {missed}; {least}; relax --error\n{searched(result)}"
 

@@ -17,7 +17,9 @@ from codegen.scene.problem import TIME, Problem
 
 
 def with_field_by_parts(problem: Problem) -> Problem:
-    """Return the problem with its field written as the sum of the fields of the parts of its Hamiltonian.
+    """Return the problem with its field written as a sum X_1 + ... + X_m.
+
+    X_i is the field of the part H_i of the Hamiltonian H_1 + ... + H_m.
 
     The problem is returned unchanged in the following cases:
 

@@ -66,7 +66,7 @@ def isotropic_part(B: Matrix) -> Fraction:
         for k in range(n):
             for j in range(n):
                 if len({i, j, k}) == 3 and B[j][k]:
-                    # For the appended number s, the minor of B - s I with the rows i and j and the columns
-                    # i and k is zero: (B[i][i] - s) B[j][k] - B[i][k] B[j][i] = 0. Here B[j][i] = B[i][j].
+                    # The appended number s solves (B[i][i] - s) B[j][k] - B[i][j] B[i][k] = 0. Hence a
+                    # 2 x 2 minor of the symmetric matrix B - s I is zero.
                     candidates.append(B[i][i] - B[i][j] * B[i][k] / B[j][k])
     return min(candidates, key=lambda a: (len(squares(shifted(B, a))), candidates.index(a)))

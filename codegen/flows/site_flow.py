@@ -28,7 +28,9 @@ A pair is "even" if the index of its first site is even.
 
 
 POTENTIAL = "potential"
-"""The name of the potential energy of a lattice, including the interaction of neighbouring sites."""
+"""The name of the potential energy of a lattice. This energy includes the interaction of neighbouring
+sites.
+"""
 
 
 @dataclass(frozen=True)

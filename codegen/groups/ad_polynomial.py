@@ -22,8 +22,7 @@ def ad_polynomial(d: Domain, word: Sequence[Factor], z: S, *, signed: bool = Fal
     """Return b and c such that the product of the factors in ``word`` is 1 + b t + c t^2.
 
     The factors are functions of a variable t with t^3 = -z t (:mod:`codegen.ir.ad_series`). If z can be
-    negative, set ``signed`` to true. The product exp(a t) dexp(s t) is computed as
-    (exp((a + s) t) - exp(a t))/(s t).
+    negative, set ``signed`` to true.
     """
     zero: S = d.rational(0)
     rates = [f.scale * f.power for f in word if f.function == "exp"]
@@ -32,6 +31,7 @@ def ad_polynomial(d: Domain, word: Sequence[Factor], z: S, *, signed: bool = Fal
     total, shift = (zero, zero), sum(rates, Fraction(0))
     if differences:
         first, *more = differences
+        # With a = ``shift`` and s = ``first.scale``, exp(a t) dexp(s t) = (exp((a + s) t) - exp(a t))/(s t).
         ends = [(shift + first.scale, 1 / first.scale), (shift, -1 / first.scale)]
         total = _exponentials(d, [(k, r) for k, r in ends if k], 1, z, signed)
         rest = [*more, *rest]

@@ -272,8 +272,8 @@ class MatrixElements(MatrixRepresentation, Inverse):
     """An element is the tuple of the n^2 entries of an n x n matrix, row by row. This matrix acts on columns
     of n scalars.
 
-    The result of velocity(x, g) is the matrix product hat(x) g, because the coordinates of g are the entries
-    of its matrix.
+    The derivative velocity(x, g) of exp(eps x) g at eps = 0 is the matrix product hat(x) g. Here hat(x) is
+    the matrix of x.
     """
 
     provides: ClassVar[str] = "matrix elements"
@@ -453,9 +453,10 @@ class DependentCoordinates(LieGroup):
 
     @abstractmethod
     def complete(self, d: Domain, g: Vector[S], missing: tuple[int, ...]) -> Vector[S]:
-        """Compute the coordinates with the indices ``missing`` from the other coordinates, and return g.
+        """Return g with new values of the coordinates g[i] for all i in ``missing``.
 
-        The tuple ``missing`` is an element of :meth:`determined`.
+        The new values are computed from the other coordinates of g. The tuple ``missing`` is an element of
+        :meth:`determined`.
         """
 
 

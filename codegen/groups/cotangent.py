@@ -98,7 +98,7 @@ class Cotangent(CotangentBundle, Projection, Inverse):
         return self.base.require(Inverse).inverse(d, q) + tuple(-m for m in back)
 
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Project q onto the base group, where g = (q, mu). The momentum mu is not changed."""
+        """Return (p, mu) for g = (q, mu). Here p is the projection of q onto the base group."""
         q, mu = self._split(g)
         return self.base.require(Projection).project(d, q) + mu
 

@@ -64,7 +64,7 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection, I
         Otherwise return None.
         """
         own = super().offers(capability)
-        # Without these two lines, DirectProduct would require that all factors are direct products, too.
+        # Every product offers DirectProduct, although the factors, for example SO(3), may lack DirectProduct.
         if issubclass(DirectProduct, capability):
             return own
         return own if all(f.offers(capability) is not None for f in self.factors) else None

@@ -63,7 +63,7 @@ class Rn(Abelian, RightTrivialisation, MatrixRepresentation, Projection, Inverse
         return ()
 
     def rate(self, d: Domain, v: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return v, because velocity(v, g) = v."""
+        """Return x = v, the solution of the equation velocity(x, g) = v."""
         return v
 
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:

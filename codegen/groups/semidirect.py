@@ -167,7 +167,7 @@ class Semidirect(
         defined in :meth:`exp`.
         """
         q, y = self._element(g)[0], self._split(x)[0]
-        # ``self.linear.expmul`` can need fewer operations than ``self.linear.mul`` for exp(y) and q.
+        # The call expmul(y, q) can need fewer operations than mul(exp(y), q), which has the same result.
         return self.linear.expmul(d, y, q) + self.move(d, self.exp(d, x), self._element(g)[1])
 
     def cay(self, d: Domain, x: Vector[S]) -> Vector[S]:

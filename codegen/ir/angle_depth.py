@@ -56,6 +56,6 @@ def _depth(root: Expr, depths: Mapping[str, int]) -> int:
         # these inputs have depth 0.
         if node.op == "sym":
             below = depths.get(node.payload, 0)
-        # Derivatives (``slope2`` etc.) are not counted.
+        # Derivatives of Stumpff functions (``slope2`` etc.) are not counted.
         by_node[node.id] = below + (node.op == "call" and "stumpff" in node.payload)
     return by_node[root.id]

@@ -27,8 +27,8 @@ class Matrix:
     """A matrix that is stored row by row in the array ``name``. The first entry of the matrix has the index
     ``start`` in the array.
 
-    ``stride`` is the distance in the array between the first entries of successive rows. If
-    ``stride`` is 0, this distance is the number of columns.
+    If ``stride`` is positive, it is the distance in the array between the first entries of successive rows.
+    The default 0 means that this distance is the number of columns.
     """
 
     name: str

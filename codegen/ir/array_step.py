@@ -51,13 +51,14 @@ class AddUnit:
 
 @dataclass(frozen=True)
 class Move:
-    """A statement that assigns to ``target`` the matrix D with exp(B S B^T) X = X_0 + B D.
+    """A statement that multiplies a point X by the exponential of a generator.
 
     - X_0 is the state at the start of the step.
     - B is the basis of the step (see the beginning of this module).
-    - ``core`` is S, and ``gram`` is B^T B.
     - ``start`` is the matrix D_0 that defines the point X = X_0 + B D_0. If X is X_0, ``start`` is None.
     - ``start`` may have fewer rows than ``target``. The missing rows are zero.
+    - ``core`` is the matrix S of the generator B S B^T, and ``gram`` is B^T B.
+    - ``target`` is set to the matrix D with exp(B S B^T) X = X_0 + B D.
     """
 
     target: Matrix

@@ -93,11 +93,11 @@ def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int,
             exponent = sum(n for _, n in inside)
             ranks[node.id] = (inside[0][0], exponent * (node.payload or 1))
     # ``ranks`` contains the pair (node number of y, n) for each node c y^n, where y = 1/sqrt x and c is a
-    # number. ``read`` contains this pair if c y^n is a root, or if c y^n is an argument of a node that is not
-    # a power of y. For example, the node z y^3 with a symbol z has the argument y^3.
+    # number. ``read`` contains the pairs of two kinds of nodes c y^n: roots, and arguments of nodes without a
+    # pair. For example, the node z y^3 with a symbol z has no pair, so ``read`` contains the pair of y^3.
     read = {ranks[x.id] for x, by in used if x.id in ranks and (by is None or by.id not in ranks)}
-    # A pair (base, n) in ``read`` belongs to the power y^n, and ``base`` is the node number of y. If n is 1
-    # or even, no power of this y is rewritten as a quotient.
+    # If ``read`` contains the pair of y or of an even power of y, no power of this y is rewritten. For
+    # example, y and y^3 = y y y need one division, but 1/sqrt x and 1/(x sqrt x) need two divisions.
     bases = {base for base, n in read if n == 1 or n % 2 == 0}
     return {key: pair for key, pair in ranks.items() if pair[0] not in bases}
 
@@ -210,8 +210,8 @@ class _Gathering:
             ((factor, _),) = self.sums[arg.id].values()
             c = c * factor
         root = inverse.args[1]
-        # If ``exponent`` is 2 m + 1, the term is c/(x^m sqrt x). A processor can compute x^m and sqrt x at
-        # the same time, because neither of these factors needs the other.
+        # For an odd exponent 2 m + 1, the denominator is x^m sqrt x and not (sqrt x)^(2 m + 1), because a
+        # processor can compute x^m and sqrt x at the same time.
         under = root.space.pow(root.args[0], exponent // 2)
         atom = root.space.one / (under * root if exponent % 2 else under)
         return {atom.id: (c, atom)}

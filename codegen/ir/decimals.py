@@ -25,7 +25,8 @@ def decimal(value: sympy.Float) -> Fraction:
     from mpmath.libmp import from_str, to_str
 
     bits = int(value._prec)
-    # The loop ends with ``break``: the last pass has enough digits to determine ``value``.
+    # The loop always ends with ``break``, because the largest value of ``digits`` is sufficient for every
+    # float with ``bits`` bits.
     for digits in range(1, int(bits * DIGITS_OF_BITS) + 3):
         text = to_str(value._mpf_, digits)
         if from_str(text, bits, "n") == value._mpf_:

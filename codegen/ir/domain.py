@@ -344,8 +344,8 @@ class SeriesDomain:
 
     def call(self, function: str, *args: Scalar) -> Scalar:
         """Apply ``function`` to the power series ``args``. If the result cannot be computed exactly,
-        ArithmeticError is raised. Only a quotient can be inexact without an error: if the divisor begins with
-        the power h^v, the last v coefficients of the quotient can be wrong, because ``args`` are truncated.
+        ArithmeticError is raised. The function ``quotient`` is an exception: if the divisor begins with the
+        power h^v, the last v coefficients of the quotient can be wrong, because ``args`` are truncated.
         """
         z = args[0]
         if function == "quotient":

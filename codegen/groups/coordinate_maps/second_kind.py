@@ -33,7 +33,7 @@ class SecondKind(CoordinateMap):
                 where=where,
                 expected="a group with an adjoint map",
                 hint='write coordinates="exp", or derive the class of the group from Coadjoint and define '
-                "the adjoint map there",
+                "the adjoint map in the derived class",
             )
 
     def element(self, d: Domain, group: LieGroup, x: Vector[S]) -> Vector[S]:

@@ -113,7 +113,7 @@ def test_a_small_error_of_a_single_run_is_not_called_larger_than_the_requested_e
         "no method reaches the error 1e-06 in two consecutive runs; the smallest measured error is 2.5e-07"
         in text
     )
-    assert "this run is not confirmed: the next run, with half the step size or a tenth of" in text
+    assert "this run is not confirmed, because the next run failed, was not made, or had more" in text
     assert "consecutive" not in unreached(missed(error=2.5e-6))
 
 
