@@ -150,8 +150,8 @@ class RoundingDomain:
         The size of a result r is |r| + |q|, where q is a difference quotient that estimates the effect of the
         rounding errors of the arguments on r. In the difference quotient, all arguments change at the same
         time, because one difference quotient for each argument would be expensive. Argument k changes by its
-        size times a factor that depends on k (:data:`FACTORS`). With equal factors, the changes of x and y could cancel in a
-        result such as x - y.
+        size times a factor that depends on k (:data:`FACTORS`). With equal factors, the changes of x and y
+        could cancel in a result such as x - y.
         """
         values = [x.value for x in args]
         results = self.plain.vector(function, values)

@@ -87,8 +87,7 @@ class SpecialUnitaryExponential(VectorFunction):
     def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
         """Return the derivatives of the real parts and of the imaginary parts of all entries of exp X.
 
-        ``args`` are the coordinates of X, and ``rates`` are their derivatives. The computation uses real
-        6 x 6 matrices.
+        ``args`` are the coordinates of X, and ``rates`` are their derivatives.
         """
         zero = args[0].space.zero
         # Since ``embedded`` is linear, ``embedded(rates, zero)`` contains the derivatives of the matrix

@@ -379,11 +379,10 @@ class _Builder:
         return self.combination(name, terms)
 
     def moved(self, name: str, core: Matrix, start: Matrix | None) -> Matrix:
-        """Append a statement that multiplies a matrix X by exp(B S B^T) from the left.
+        """Append a statement that computes the matrix D' with exp(B S B^T) X = X_0 + B D', and return D'.
 
-        Here B is the matrix ``self.basis``, and S is ``core``. Let X_0 be the state at the beginning of the
-        step. ``start`` is the matrix D with X = X_0 + B D, or None if X = X_0. The result is the matrix D'
-        with exp(B S B^T) X = X_0 + B D'.
+        Here X_0 is the state at the beginning of the step, B is the matrix ``self.basis``, and S is ``core``.
+        ``start`` is the matrix D with X = X_0 + B D, or None if X = X_0.
         """
         rows = core.rows if start is None else max(core.rows, start.rows)
         target = Matrix(name, rows, self.k)

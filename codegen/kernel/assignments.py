@@ -137,7 +137,9 @@ class Assignments:
                 self._place(node, self.body, [], -1)
         own: list[Let] = []
         placed = tuple(self._place(x, own, [], -1) for x in values)
-        # The loops and the outputs must not read the variables that are assigned in ``own``.
+        # A step may skip the assignments in ``own``, so other statements must not read their variables. Only
+        # nodes outside ``later`` were replaced by these variables. The next line deletes these nodes from
+        # ``self.done``.
         self.done = {n: x for n, x in self.done.items() if n in later}
         return Start(tuple(u for b in self.blocks for u in b.unknowns), tuple(own), placed)
 

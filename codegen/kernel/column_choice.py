@@ -50,12 +50,14 @@ def fastest(program: Program, scene: Problem) -> Kernel:
     # flows and ``scene.group`` is not a group T*G, all variants give the same kernel.
     if not flows and scene.group.offers(CotangentBundle) is None:
         return _shortest([to_kernel(program, scene, chains=chains) for chains in (AS_WRITTEN, COMBINED)])
-    # ``part`` moves deferred flows out of the steps. A scene with run-time inputs has no deferred flows,
-    # because the inputs can change in each step.
+    # ``part`` combines flows of different steps. For example, one flow after the last step (a deferred flow)
+    # replaces a flow of each step. If the scene has run-time inputs, no flows are combined, because the
+    # inputs can change in each step.
     parted = None if scene.inputs else part(program, scene)
     # The cost of the deferred flows is neglected, because they are applied only once for many steps.
     core = program if parted is None else parted.core
-    # The costs of complete steps are compared, because different operations can share subexpressions.
+    # The estimated times of complete steps are compared. A sum of the times of single operations would be
+    # too large, because operations can share subexpressions.
     candidates: list[tuple[Kernel, Problem, int]] = []
     # Each variant is compiled twice, with and without shortening of the critical path.
     for group in scene.group.variants():

@@ -40,7 +40,8 @@ Sum = dict[Expr | None, tuple[int, Expr, Expr]]
 - the sign s, which is 1 or -1,
 - a factor k that is constant in a run,
 - a factor v that may vary in a run, and
-- a factor c that depends on a longer chain of slow operations (:data:`ATOMS`) than k and v.
+- a factor c whose computation needs more successive slow operations (:data:`ATOMS`) than the computation of
+  k or v. For example, sin(x/y) needs two successive slow operations: a division, then a call.
 
 The dictionary maps c to (s, k, v). For the product s k v, the key is None.
 """
@@ -163,9 +164,9 @@ class _Chains:
                 # For a square ``arg * arg``, ``others`` is empty.
                 others = [a for a in node.args if a is not arg]
                 late = self.level[arg.id]
-                # For a product, ``linear`` is true only if ``arg`` is the factor that depends on the longer
-                # chain of slow operations (:data:`ATOMS`). If this factor is a sum b + c, the product
-                # a (b + c) can be expanded to a b + a c.
+                # ``linear`` is true if ``node`` is a sum, a difference, a negative, or a product a * ``arg``
+                # with a factor a that needs fewer successive slow operations (:data:`ATOMS`) than ``arg``. If
+                # ``arg`` is b + c, such a product can be expanded to a b + a c.
                 linear = node.op in ("add", "sub", "neg") or (
                     node.op == "mul" and len(others) == 1 and self.level[others[0].id] < late
                 )
@@ -198,10 +199,10 @@ class _Chains:
             return total
         if node.op == "mul":
             a, b = node.args
-            # ``self.level`` contains, for each node, the largest number of slow operations in a chain that
-            # ends at the node. The argument with the smaller number becomes ``a``. If ``self.level[a.id]`` is
-            # less than the parameter ``level``, ``a`` is known early. Then ``b`` is replaced by a sum
-            # of products, and each of these products is multiplied by ``a``.
+            # ``self.level`` contains, for each node, the number of successive slow operations that the node
+            # needs. The factor of ``node`` with the smaller level becomes ``a``, and the other factor ``b``.
+            # If the level of ``a`` is less than the parameter ``level``, ``a`` is known early. Then ``b`` is
+            # replaced by a sum of products, and each of these products is multiplied by ``a``.
             if self.level[b.id] < self.level[a.id]:
                 a, b = b, a
             if self.level[a.id] < level:
@@ -210,8 +211,8 @@ class _Chains:
                 return _scaled(
                     self._sum(b, level), 1, *((factor, one) if self.fixed[a.id] else (one, factor))
                 )
-        # ``node`` is not expanded. The result is a single product s k v c (:data:`Sum`): c is the
-        # expression that replaces ``node``, and s = k = v = 1.
+        # ``node`` is not expanded, so the resulting sum has one term: the expression that replaces ``node``.
+        # The sign and the two other factors of this term are 1.
         return {self.new[node.id]: (1, one, one)}
 
     def _joined(self, a: tuple[int, Expr, Expr], b: tuple[int, Expr, Expr]) -> tuple[int, Expr, Expr]:

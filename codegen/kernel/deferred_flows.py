@@ -50,9 +50,11 @@ class Parted:
 def part(program: Program, scene: Problem) -> Parted | None:
     """Split the program of a splitting method into programs for the start, the steps and the end of a run.
 
-    The result is None if the program is not a composition of flows. The result is also None if no flow can be
-    joined or deferred (:class:`Parted`), or if all flows can be deferred, because no flow would remain in the
-    steps.
+    The result is None in three cases:
+
+    - The program is not a composition of flows.
+    - No flow can be joined or deferred (:class:`Parted`).
+    - All flows can be deferred. Then no flow would remain in the steps.
     """
     letters = word(program)
     if letters is None:
@@ -125,9 +127,9 @@ of both durations.
 def _joined(
     kept: Sequence[Letter], commute: Callable[[str, str], bool], program: Program
 ) -> list[JoinedFlows]:
-    """Return the flows at the end of a step that can be joined with a flow of the next step.
+    """Find pairs of flows that can be joined: a flow at the end of a step, and a flow of the next step.
 
-    Each entry of the result describes both flows (:data:`JoinedFlows`).
+    Each entry of the result describes one pair (:data:`JoinedFlows`).
     """
     # The time t + h at the end of a step is the time t of the next step.
     last = _last_time(program)
@@ -148,9 +150,10 @@ def _joined(
 
 
 def _run(letters: Sequence[Letter], commute: Callable[[str, str], bool]) -> int:
-    """Return the largest n such that the first n flows commute pairwise and belong to different parts.
+    """Return the largest n such that the first n flows in ``letters`` commute pairwise and are flows of
+    different terms of the Hamiltonian.
 
-    ``letters`` contains the flows. A part is a term of the Hamiltonian.
+    The attribute ``part`` of a flow is the name of the term.
     """
     n = 0
     # If the first n flows commute pairwise, each of these flows can be moved to the beginning.

@@ -189,7 +189,7 @@ class Solved:
         self.space: Space = block.images[0].space
         self.known: dict[int, Expr] = {}
         for name, image in zip(block.unknowns, block.images, strict=True):
-            # An image without operations is a symbol or a number, which costs nothing to evaluate again.
+            # ``image`` is an expression g_i(u). A symbol or a number costs nothing, so it is not replaced.
             if image.args:
                 self.known[image.id] = self.space.sym(name)
 

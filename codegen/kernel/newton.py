@@ -54,8 +54,8 @@ def matrix(images: Sequence[Expr], unknowns: Sequence[str]) -> Rows:
     """Return the rows of Newton's matrix 1 - g'(u).
 
     ``unknowns`` are the names of the components of u. The expressions ``images`` are the components of g(u).
-    ZeroDivisionError is raised if the divisor of a quotient contains, at h = 0, a division by zero or a value
-    such as log(0).
+    ZeroDivisionError is raised if the divisor of a quotient cannot be evaluated at h = 0, for example if the
+    divisor is 1/h or log(h). The divisor may be zero at h = 0.
     """
     space = images[0].space
     rows = jacobian(_regular(images), unknowns)

@@ -40,7 +40,8 @@ class _Inputs:
     def text_of(self, x: Expr, c: Coefficient) -> str:
         """Return the text of the coefficient ``c``, for example ``c1 h``.
 
-        Let c = a h^p with a number a. ``x`` is a symbol or a constant with the value a.
+        ``c`` is the product of a number and a power of h. ``x`` is a symbol or a constant with the value of
+        this number.
         """
         # The name of the symbol ``x`` is the name of the function, a dot, and the name of the argument. The
         # text contains only the name of the argument.
@@ -88,7 +89,7 @@ def function(
         if assign.terms:
             # Equal coefficients of a sum share one argument.
             own_terms = distinct(assign)
-            # ``numbers`` contains the coefficients of all sums. Those of ``assign`` begin at index ``first``.
+            # In ``numbers``, the coefficients of the current sum begin at the index ``first``.
             symbol = dict(zip(own_terms, numbers[first:], strict=False))
             first += len(own_terms)
             # ``x`` is the coefficient ``c`` without its power of h.

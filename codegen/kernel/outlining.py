@@ -86,11 +86,10 @@ class Outline:
             if not chosen:
                 return None
             rewritten_roots, shapes = self._called(roots, chosen)
-            # A call reads all inputs of a tree, and the parameters of its function. Suppose that the program
-            # uses an input or a parameter x only in x - x. Then ``roots`` contains 0 instead of x - x, and x
-            # is missing in ``roots``, so emitted code does not compute x. Therefore a tree that would read x
-            # is not replaced by a call. At least one tree is removed, because each added symbol is an input
-            # or a parameter.
+            # A call reads the inputs of its tree and the parameters of its function, but one of these symbols x
+            # may be missing in ``roots``. For example, if x occurs only in x - x, ``roots`` contains 0 instead.
+            # Emitted code might not define x, so no tree is replaced by a call that reads x. At least one tree
+            # is removed, because each symbol in ``added`` is an input or a parameter.
             added = _symbols(rewritten_roots) - _symbols(roots)
             if added:
                 trees = [
@@ -195,9 +194,9 @@ class Outline:
 
         waiting = list(roots)
         while waiting:
-            # A tree is a group of assignments that a function call can replace. The keys of ``ends`` are the
-            # ids of the results of all trees. ``walk`` stops at these results, because the function will
-            # contain the operations of the tree. The search continues at the inputs of the tree.
+            # A function call can replace each tree, so the operations inside the trees are not visited:
+            # ``walk`` stops at the results of the trees (the keys of ``ends`` are the ids of these results),
+            # and the search continues at the inputs of the trees.
             for node in walk(waiting, ends_here):
                 if node.id in ends and node.id not in seen:
                     t, k = ends[node.id]

@@ -47,7 +47,11 @@ class SharedArguments(ExprDomain):
         return super().call(function, *args)
 
     def _first(self, argument: Expr) -> Expr:
-        """Return the first known argument that equals ``argument``, or ``argument`` if there is none."""
+        """Return the expression that a call of a Stumpff function uses in place of ``argument``.
+
+        If :meth:`_compared` finds an earlier argument with the same expansion as a polynomial, the earlier
+        argument is returned, so that equal calls become one expression. Otherwise ``argument`` is returned.
+        """
         # The expansion as a polynomial is slow, so the result for each node is stored.
         if argument.id not in self.shared:
             self.shared[argument.id] = self._compared(argument)

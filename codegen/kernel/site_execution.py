@@ -184,16 +184,17 @@ class Execution:
         return values
 
     def _neighbour(self, var: Var, offset: int, ghosts: Sequence[Expr]) -> list[str]:
-        """Return names for the components of ``var`` at the neighbour with the index ``offset``.
+        """Return names for the components of ``var`` at a neighbour of a site.
 
+        The neighbour has the position ``self.sites.offsets[offset]`` relative to the site.
         The names are added to the dictionary ``self.loads``. ``ghosts`` contains the values to be used if the
         neighbour is outside the lattice.
         """
         loaded = [f"{name}_{offset_text(self.sites.offsets[offset])}" for name in self._names(var)]
         pairs = zip(loaded, ghosts, strict=False)
-        # ``loaded`` contains one name for each component of ``var``. The dictionary ``self.ghosts``
-        # may already contain one of these names, with another value than in the argument ``ghosts``. Then all
-        # components get new names, because a dictionary has only one value for each name.
+        # ``loaded`` contains one name for each component of ``var``, and ``ghosts`` contains the values for
+        # these names. If ``self.ghosts`` already maps one of these names to a different value, all components
+        # get new names, because a dictionary has only one value for each name.
         if var not in self.given or any(self.ghosts.get(s, x) is not x for s, x in pairs):
             loaded = [self._fresh(name) for name in loaded]
         self.loads |= {s: Load(s, row, offset) for s, row in zip(loaded, self.rows[var], strict=True)}
