@@ -190,7 +190,7 @@ class Planner:
             solve = self._without_renamed(statement)
             inside = {t for assign in solve.body for t in assign.targets} | set(solve.unknowns)
             read = {v for assign in solve.body for v in assign.args} - inside
-            # Values that the equations read must be stored in sweeps (loops over all sites) before ``first``.
+            # Sweeps (loops over all sites) that store values for the equations must come before ``first``.
             first = 1 + max([least, *(self.sweep_of[v] for v in (*solve.starts, *read))])
             self.sweep_of |= dict.fromkeys(solve.unknowns, first)
             for assign in solve.body:
@@ -375,8 +375,8 @@ class Planner:
         stored = [(self.rows[unknown], value) for unknown, value in copies]
         measured = tuple(Row(WORK, count + k) for k in range(MEASURED)) if ending and not self.newton else ()
         if ending and self.newton:
-            # In fixed-point iteration, this sweep stores the new values of the unknowns. In Newton's method,
-            # the sweep stores residuals in other rows, and the solver changes the unknowns.
+            # In fixed-point iteration, this sweep replaces the unknowns by their new values. In Newton's
+            # method, the solver changes the unknowns, and this sweep stores the residuals in free rows.
             free = (Row(WORK, k) for k in itertools.count(count))
             stored = [(tuple(islice(free, len(rows))), value) for rows, value in stored]
         stored += [(self.rows[v], v) for v in kept]

@@ -161,7 +161,7 @@ class TaylorSweeps:
         every: list[Row] = []
         own: list[str] = []
         for s, x in zip(self.symbols, terms, strict=True):
-            # A coefficient that is zero needs no row and no symbol, so its name is empty.
+            # A zero coefficient has the name '', so ``_load`` ignores its row, and no memory is reserved.
             own.append("" if x is None else unique_name(f"{s}_d{degree}", self.taken))
             every.append(Row(WORK, self.rows))
             if x is not None:

@@ -208,9 +208,9 @@ class _Translation:
             entered = residuals
         elif solver != FIXED_POINT:
             entered = with_matrix(entered, solver)
-            # An iteration of Newton's method computes g(u), a correction d from g(u) - u, and the new value
-            # u + d of the unknown. In the last iteration, u + d is more accurate than g(u). Therefore later
-            # statements read the unknown in place of g(u).
+            # An iteration of Newton's method first computes g(u). The difference g(u) - u then gives a
+            # correction d, and the new value of the unknown is u + d. In the last iteration, u + d is more
+            # accurate than g(u). Therefore later statements read the unknown in place of g(u).
             solved = Solved(entered)
             for var in self.env:
                 self.env[var] = solved.value(self.env[var])
@@ -310,7 +310,7 @@ class _Translation:
         # ``before`` contains the names that are in use before ``schedule`` creates new names. The kernel
         # contains either the assignments of ``schedule`` or the outlined assignments, but never both.
         # Therefore variables of ``schedule`` and of outlined assignments may have the same names. Outlining
-        # begins with the names in ``before``.
+        # must only avoid the names in ``before``.
         before = frozenset(self.taken)
         schedule = Assignments(self.blocks, ends, self.hints, self.name, self.variations is None)
         body = schedule.run()

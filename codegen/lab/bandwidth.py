@@ -279,8 +279,8 @@ class _Runs:
         while status == Status.OK and pace * sites * steps < RESOLVED:
             steps *= 2
             status, pace = self.timed(side, steps)
-        # If the last run failed, for example because the method is unstable, the number of steps of the
-        # previous run is used.
+        # If the last run failed, for example because the method is unstable, its number of steps is halved,
+        # because the run before it had half as many steps and succeeded.
         steps = steps if status == Status.OK else max(steps // 2, 1)
         return self.timed(side, steps, REPEATED)[1]
 

@@ -39,7 +39,10 @@ SAFE = 8.0
 T = TypeVar("T")
 
 SAMPLE = 12
-"""The largest number of excluded recipes in the result of :func:`sampled`."""
+"""The largest number of recipes that are timed although their predicted CPU times are too long.
+
+These runs test the predictions.
+"""
 
 
 @dataclass
@@ -55,10 +58,10 @@ class Exhausted:
     - ``copies``: the number of recipes that were not timed, because their code equals that of a timed recipe.
     - ``excluded``: the number of recipes that were not timed, because their predicted CPU times were too
       long.
-    - ``nearest``: the least quotient t/b in a test with a sample of the excluded recipes. Here t is the CPU
-      time that a recipe of the sample needs for a required error. The number b is the least CPU time that was
-      measured earlier for this error, by ``orderconds recommend`` or by this search. If ``nearest`` is below
-      1, a faster recipe was excluded.
+    - ``nearest``: the result of a test of the predictions. A few recipes with too long predicted CPU times
+      are timed, too. Let t be the CPU time of such a recipe for a required error, and let b be the least CPU
+      time that was measured earlier for this error, by ``orderconds recommend`` or by this search.
+      ``nearest`` is the least quotient t/b. If ``nearest`` is below 1, a faster recipe was wrongly excluded.
     - ``complete``: False if the time limit ended the search.
     """
 

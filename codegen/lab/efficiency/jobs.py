@@ -151,9 +151,10 @@ class Jobs(Sequence[Job]):
     def _behind(self, queue: Queue) -> float:
         """Return the slowness of a queue, computed for the recipe that is taken from the queue next.
 
-        For each goal of this recipe, let T1 be the least predicted CPU time of all recipes of the same kind
-        (:data:`Kind`), and let T2 be the least predicted CPU time of all recipes. The slowness is the minimum
-        of log2(T1/T2) over these goals.
+        Let K be the kind of this recipe (:data:`Kind`). For each goal of the recipe, T1 is the least
+        predicted CPU time to reach the goal with a recipe of the kind K, and T2 is the least predicted CPU
+        time to reach the goal with a recipe of any kind. The slowness is the minimum of log2(T1/T2) over
+        these goals.
 
         A goal is ignored if T1 is not known yet, or if T2 is infinite. If all goals are ignored, the slowness
         is 0. If T1 is infinite for all goals that are not ignored, the slowness is FAILED.

@@ -104,7 +104,7 @@ class Numeric(Operation):
     def evaluate(self, problem: Evaluated, domain: Domain, args: Values) -> Values:
         """Call the Python function with the components of ``args`` and the step size ``domain.h``.
 
-        Return the results of the call, with one entry for each element of ``parts``.
+        Return one entry for each result: a number if the kind of the result is REAL, and otherwise a vector.
         """
         flat: list[Scalar] = []
         for x in args:

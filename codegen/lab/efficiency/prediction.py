@@ -81,11 +81,11 @@ TOLERANCES = (1, 3, 5, 7, 9, 11)
 """In the interpreter, runs with step-size control have the tolerances 10^-k, with k in TOLERANCES."""
 
 FAR = 10.0
-"""Methods of order p are excluded if the methods of the orders p + 1 and p + 2 have large errors.
+"""A method is assumed to be at most FAR times as accurate as methods of higher order with the same CPU time.
 
-Let e be the least error that is predicted for the methods of these higher orders, with a given CPU time. With
-the same CPU time, the error of a method of order p is assumed to be at least e/FAR. Therefore methods of
-order p are excluded if e/FAR exceeds the required error.
+Let e be the least error that is predicted for the methods of the orders p + 1 and p + 2, with a given CPU
+time. With the same CPU time, the error of a method of order p is assumed to be at least e/FAR. Therefore
+methods of order p are excluded if e/FAR exceeds the required error.
 """
 
 CALL = 8.0
@@ -186,12 +186,12 @@ class Bar:
         one order p. A method is excluded in three cases:
 
         - ``step_seconds``, the predicted CPU time of one step, exceeds ``self.seconds``.
-        - The method is implicit, and ``self.explicit`` is True.
-        - The number e/:data:`FAR` exceeds ``self.error``. Here e is the smallest predicted error of the
-          methods of the orders p + 1 and p + 2 in a run of ``self.seconds`` seconds of CPU time. In a run of
-          the same CPU time, the error of a method of order p is assumed to be at least e/FAR. The number e
-          comes from the triple (``family``, ``explicit``, e) in ``self.least``. If this triple is missing,
-          the triple ('', ``explicit``, e) for all families is used. If that triple is missing, too, this case
+        - The method is implicit, and the limits accept only explicit methods (``self.explicit`` is True).
+        - The error of the method is assumed to be at least e/:data:`FAR`, and e/FAR exceeds ``self.error``.
+          Here e is the smallest error that is predicted for the methods of the orders p + 1 and p + 2 with
+          the CPU time ``self.seconds``. The attribute ``least`` contains e for the methods of the same family
+          that are explicit or implicit like the method. If ``least`` has no entry for them, the entry for the
+          methods of all families is used. If both entries are missing, this case
           does not apply.
         """
         if step_seconds > self.seconds or (self.explicit and not explicit):
@@ -246,9 +246,9 @@ class Predictor:
         """Return the prediction for a method of the given order.
 
         A bar contains limits on the error and the CPU time. If the limits of every bar exclude the method
-        (:meth:`Bar.too_high`), no run is made. Without a run, the error is unknown, and the predicted error
-        is infinite. ``controlled`` is the same method with step-size control, or None. Raises InputError if
-        the method cannot be used for the scene.
+        (:meth:`Bar.too_high`), no run is made, and the attribute ``error`` of the result is infinity.
+        ``controlled`` is the same method with step-size control, or None. Raises InputError if the method
+        cannot be used for the scene.
         """
         problem, program, widths = self._program(method)
         outside, sweep = self.cost(program, problem, widths)

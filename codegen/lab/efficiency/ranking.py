@@ -34,9 +34,10 @@ class Place:
 
 
 def by_form(rows: Sequence[Row]) -> dict[str, list[Row]]:
-    """Return the rows in a dictionary. The keys are the names of the forms of the equations.
+    """Group runs by the form of the equations, for example the form ``quaternion``.
 
-    A row contains the results of one run.
+    A row contains the results of one run. The returned dictionary maps the name of each form to the rows of
+    the runs with this form.
     """
     return {form: [row for row in rows if row.form == form] for form in dict.fromkeys(r.form for r in rows)}
 

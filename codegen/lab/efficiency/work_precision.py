@@ -184,7 +184,7 @@ class Refused:
     form: str = ""
 
     def controls(self) -> Iterator[float]:
-        """Yield one placeholder, 0. The method is never run, so the value is not used."""
+        """Yield one placeholder, 0, because there is no emitted code to run."""
         yield 0.0
 
     def prepare(self) -> None:

@@ -126,7 +126,7 @@ class Drift:
     - ``half_width``: the half width of the 95 % confidence interval of the slope.
     - ``largest``: the largest absolute deviation of the record.
     - ``exponent``: the slope of log(d(t)) against log(t) in a linear fit. Here d(t) is the largest absolute
-      deviation between the start and the time t.
+      deviation of the record up to the time t.
     - ``rounding``: the largest deviation that rounding errors can cause.
     - ``persists``: True if the means over consecutive sections of the record are monotone.
     - ``later``: the largest deviation of the record, divided by the largest deviation in the first half.

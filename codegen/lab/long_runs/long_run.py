@@ -148,9 +148,10 @@ def long_run(
 
 
 def _reversals(runner: Emitted, trajectory: Trajectory, h: float) -> tuple[tuple[int, float], ...]:
-    """Run back to the start from two samples, and return two pairs (n, distance from the initial state).
+    """For two samples of the trajectory, run from the sample back to the initial time.
 
-    The number n is the number of steps from the start to the sample, and also the number of steps back.
+    Return a pair (n, d) for each sample. The run from the initial state to the sample had n steps, and the
+    run back has n steps, too. The number d is the distance of its final state from the initial state.
     """
     reversals = []
     for k in (len(trajectory.counts) // 100, len(trajectory.counts) - 1):

@@ -46,9 +46,9 @@ the scale of this direction.
 The third derivative of the step causes a relative error of about 10^(-2 OFFSET) = 10^-50. Rounding causes a
 relative error of about 10^(OFFSET - DIGITS) = 10^-55.
 
-The scales are computed from norms of whole vectors. For example, let a component of the momentum be 10^12
-times smaller than its scale. The increment is then 10^-OFFSET * 10^12 = 10^-13 times this component, and the
-relative error is about (10^-13)^2 = 10^-26.
+The scales are computed from norms of whole vectors, so a component can be much smaller than its scale. If a
+component of the momentum is, for example, 10^12 times smaller than its scale, the increment is
+10^-OFFSET * 10^12 = 10^-13 times this component, and the relative error is about (10^-13)^2 = 10^-26.
 """
 
 SWEEPS = 80
@@ -115,8 +115,9 @@ def symplectic_defect(
 
     ``state`` contains the coordinates of a group element and of its momentum. The scene must be Hamiltonian.
     If fixed-point iteration fails for an implicit step, Newton's method starts from the approximate solution
-    ``near``. Raises ArithmeticError or ValueError if no solution is found, or if the group element or the
-    momentum is zero before and after the step.
+    ``near``. Raises ArithmeticError or ValueError if no solution is found. Raises ArithmeticError if
+    all coordinates of the momentum are zero before and after the step. The same error is raised if all
+    coordinates of the group element are zero before and after the step, for example in the group R^n.
     """
     scene = compiled.scene
     domain = PreciseDomain(h, DIGITS)

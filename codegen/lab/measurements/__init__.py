@@ -1,1 +1,1 @@
-"""The measurements of the report. Each module defines one measurement with one section."""
+"""The measurements of the report. Each module defines one measurement, which writes one section."""

@@ -83,9 +83,10 @@ class Conditions(Measurement[ConditionTables]):
         }
 
     def verdict(self, result: ConditionTables, subject: Subject) -> str:
-        """Return a sentence with the number of methods that violate a condition of order p + 1.
+        """Return a sentence with the number of methods whose order is not higher than the computed order p.
 
-        Here p is the computed order of the method.
+        These methods violate a condition of order p + 1. For the other methods, no violated condition of
+        order p + 1 is known.
         """
         if not result.methods:
             return ""

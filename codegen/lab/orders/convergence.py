@@ -41,9 +41,10 @@ FEWEST = 4
 SPREAD = CLEAR * 2.0**-52
 """Errors of the coefficients of a method up to SPREAD are negligible.
 
-A run with doubles has a rounding error r of about 2^-52 or more. The run is used to measure the order only if
-its error is larger than CLEAR r. Coefficients with an error e change the final state of the run by about e.
-If e is at most SPREAD = CLEAR 2^-52, this change is smaller than the error of a run that is used.
+A run with doubles has a rounding error r of about 2^-52 or more. A run is used to measure the order only if
+its error is larger than CLEAR r, and therefore larger than CLEAR 2^-52 = SPREAD. If the coefficients have
+errors of at most SPREAD, the final state changes by about SPREAD or less, so by less than the error of the
+run.
 """
 
 

@@ -51,7 +51,11 @@ The computed points need not be accurate.
 """
 
 DENOMINATOR = 64
-"""The largest denominator of the rational numbers that replace coordinates x with abs(x) >= 1/DENOMINATOR."""
+"""The largest denominator of the rational numbers that replace coordinates of a state.
+
+A coordinate near 0 could become 0. Therefore the coordinate is divided by a power of 2 before the
+replacement and multiplied by this power afterwards (:func:`_near`).
+"""
 
 
 @dataclass(frozen=True)
@@ -64,11 +68,11 @@ class ExactLocalError:
     - ``symbols``: the names of the coordinates.
     - ``start``: the state before the step.
     - ``time``: the time before the step.
-    - ``points``: the number of points of the solution at which the local error was computed. It exceeds 1
-      only if all coefficients are zero at the initial state. The coefficients are those of the last of
-      these points.
     - ``coefficients``: the coefficients of h^(``order`` + 1), one for each coordinate. If ``vanishes`` is
       True, ``coefficients`` is empty.
+    - ``points``: the number of points of the solution at which the local error was computed. If all computed
+      coefficients of the local error are zero at a point, a later point is examined. The attributes
+      ``order``, ``vanishes``, ``start``, ``time`` and ``coefficients`` describe the step from the last point.
     """
 
     scene: str
@@ -101,8 +105,8 @@ class ExactLocalError:
             statement = f"order at least {self.order} in exact arithmetic for steps from {where}"
         elif self.points > 1:
             statement += (
-                " (at the initial state, all coefficients of the local error up to "
-                f"h^{self.certified.order + 1} are zero, so the step starts at a later point)"
+                " (computed at a later point of the solution; at the initial state, all coefficients of the "
+                f"local error up to h^{self.certified.order + 1} are zero and do not show the order)"
             )
         return (
             f"{self.verdict}: {statement}; "
@@ -278,7 +282,8 @@ def _near(x: float) -> Fraction:
     >>> _near(0.333), _near(0.001)
     (Fraction(1, 3), Fraction(21, 20992))
     """
-    # If abs(x) is small, the multiple of x by a power of 2 is rounded. The multiple is between 1/2 and 1.
+    # A small x could be rounded to 0. Therefore a small x is divided by ``scale``, a power of 2, so that the
+    # absolute value of the quotient is between 1/2 and 1. Then the quotient is rounded.
     scale = Fraction(2) ** (math.frexp(x)[1] if abs(x) < 1 / DENOMINATOR else 0)
     return (Fraction(x) / scale).limit_denominator(DENOMINATOR) * scale
 
