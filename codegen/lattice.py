@@ -129,7 +129,7 @@ class CompiledLattice(Lattice):
         values: Sequence[float],
         work: Any,
     ) -> tuple[Status, int]:
-        """Call the compiled function. :meth:`Lattice.advance` describes the arguments and the result."""
+        """Call the compiled function. The base class describes the arguments and the result."""
         (t, h, steps), kind = moment, self.interface.format.c_type
         completed = self._ffi.new("size_t *")
 

@@ -45,11 +45,12 @@ in NEAR give k.
 """
 
 VANISHING = 1e-30
-"""The largest accepted difference between a step and its Taylor polynomial, divided by max(1, s).
+"""The largest accepted value of d / max(1, s).
 
-Here s is the largest absolute value of a coordinate after the step.
+Here d is the largest difference of a coordinate between the state after a step and the Taylor polynomial of
+the step. The number s is the largest absolute value of a coordinate after the step.
 
-The step itself has a tolerance of at most 1e-33. A difference above VANISHING is therefore caused by an error
+The step itself has a tolerance of at most 1e-33. A value above VANISHING is therefore caused by an error
 of the polynomial. The search for a point where the field is not smooth (:func:`_root`) has the smaller
 tolerance VANISHING / 10^8.
 """
@@ -110,9 +111,9 @@ class PiecewiseField:
         return first, second
 
     def sides_at(self, y: Vector, t: Scalar, flow: Evaluate | None = None) -> Sides:
-        """Return the cases of operations such as abs(x), for example x > 0, just after the time t.
+        """Return the case of each operation with several cases just after the time t.
 
-        The result contains one case for each operation with several cases. The state just after t is computed
+        For example, abs(x) has the cases x > 0 and x <= 0. The state just after t is computed
         by a short Euler step from y with the derivative ``flow(y, t)``. By default, ``flow`` is the field of
         the scene.
         """
@@ -233,9 +234,10 @@ class Sided:
     ) -> tuple[Scalar, Vector]:
         """Return the time and the state of the event in a step from (y, t).
 
-        At an event, an operation such as abs(x) changes its case, and a margin is zero (:meth:`margins`). The
-        event is between the times t + a and t + b, where (a, b) = ``bracket`` is the result of
-        :meth:`StepPolynomial.first_exit`. ``self.sides`` is set to the cases that apply after the event.
+        At an event, an operation changes its formula, for example abs(x) from x to -x at x = 0. The event is
+        between the times t + a and t + b, where (a, b) = ``bracket`` is the result of
+        :meth:`StepPolynomial.first_exit`. ``self.sides`` is set to the cases that apply after the event, for
+        example x <= 0.
         """
         low, high = bracket
         start, end = (self.margins(advance(self, y, t, tau)[0], t + tau) for tau in bracket)

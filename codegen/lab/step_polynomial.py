@@ -25,7 +25,7 @@ degree has about the same error.
 
 NEGLIGIBLE = 1e-30
 """A function counts as non-negative if it is at least -NEGLIGIBLE * min(1, s), where s bounds its absolute
-value on the step. The reference solution has errors up to about this size.
+value on the step. NEGLIGIBLE is about the largest error of the reference solution.
 """
 
 ROUNDING = 1e-45
@@ -216,8 +216,8 @@ class _Signs:
         try:
             values = self.values(state, t)
         except (ArithmeticError, ValueError):
-            # The balls in ``state`` can contain points at which a function is undefined. No sign is then
-            # known, so all functions count as possibly negative.
+            # ``values`` fails if one function is undefined at a point in the balls of ``state``. The values
+            # of all functions are then unknown, so all functions count as possibly negative.
             return list(range(self.count))
         return [k for k, x in enumerate(values) if not x >= -self.limits[k]]
 

@@ -23,7 +23,10 @@ class Ambient(Lowering):
     in_coordinates = True
 
     def objection(self, scene: Problem) -> Objection | None:
-        """Return an objection if the field has no formulas in coordinates of the state, otherwise None."""
+        """Return None if the scene has a formula for each component of the vector field.
+
+        Otherwise, return an objection.
+        """
         return without_formulas(scene)
 
     def keeps_manifold(self, scene: Problem) -> bool:

@@ -107,8 +107,8 @@ def _program(scene: Problem, method: Method) -> Program:
 
     def images() -> list[Var]:
         slopes = [
-            # The sum g of these terms is a weighted mean of differentials of the energy, so the weights b_i
-            # have no factor h.
+            # The sum g of these terms approximates a mean over the step, not an integral over the step.
+            # Therefore the weights are b_i and not h b_i.
             (Coefficient(stages.number(b)), build.add(Differential(), f"d{i + 1}", moved(f"{i + 1}", c, xi)))
             for i, (b, c) in enumerate(zip(tableau.b, map(stages.number, tableau.c), strict=True))
         ]

@@ -205,7 +205,7 @@ def adjoint_word(parts: Parts, method: Method, tableau: AdjointComposition) -> t
     A step applies Phi* and Phi alternately, and begins with Phi*. Phi is the product of the flows of all
     summands, and Phi* is the adjoint of Phi.
     """
-    # Phi* with the duration beta_i h acts before Phi with the duration alpha_i h.
+    # In each pair, beta_i comes first, because the flows with the duration beta_i h act first.
     both = [(method.number(y), method.number(x)) for x, y in zip(tableau.alpha, tableau.beta, strict=True)]
     return pairs(parts.arranged, both), "composition"
 

@@ -47,9 +47,10 @@ class LieElements:
     known: dict[Term, Scaled] = field(default_factory=dict)
 
     def exponent(self, target: str, combination: Combination) -> Var:
-        """Append to the program a statement that computes an exponent of the step from ``combination``.
+        """Return a new variable x for ``combination``. The step contains the exponential exp(x).
 
-        Return the variable of the exponent. The name of the variable begins with ``target``.
+        The statements that compute x are appended to the program. The name of the variable begins with
+        ``target``.
         """
         # The argument 0 means that the sum is not divided by a power of h.
         return self._sum(target, combination, 0).var
@@ -91,10 +92,11 @@ class LieElements:
         return self._palindrome(term)
 
     def _palindrome(self, term: Product) -> Scaled:
-        """Append the statements for a product in symmetric order, for example x y z y x, to the program.
+        """Return a symmetric product such as x y z y x as a variable times a power of h.
 
-        Return the product as a variable times a power of h. The number of factors must be odd. If the group
-        preserves a bilinear form, as SO(n) does, the Lie algebra contains these products.
+        The statements that compute the product are appended to the program. The number of
+        factors must be odd. If the group preserves a bilinear form, as SO(n) does, the Lie algebra contains
+        these products.
         """
         factors = term.factors
         # Products of even length (x y) or without symmetry (x y z) are in general not in the Lie algebra.

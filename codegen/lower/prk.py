@@ -100,11 +100,11 @@ class PartitionedLowering(Lowering):
                 # the ring.
                 time = stages.at(sum(tableau.A[i][1:], tableau.A[i][0]))
                 v, f = build.hamilton(f"v{number}", f"f{number}", Q, P, *time)
-                # If the velocity does not depend on positions, its values at ``q`` and ``Q`` are equal, so
-                # ``q`` can replace ``Q``.
+                # If the velocity does not depend on positions, the position ``q`` at the start of the step
+                # can replace the position ``Q`` of the stage.
                 if not by_position:
-                    # The position ``q`` at the beginning of the step is known, but the position ``Q`` of the
-                    # stage can depend on unknown velocities.
+                    # ``q`` is known, but ``Q`` can depend on unknown velocities. Therefore the velocity is
+                    # computed from ``q``.
                     v, _ = build.hamilton(f"v{number}", "unused", q, P, *time)
                 # If the force does not depend on momenta, its values at ``mu`` and ``P`` are equal, so ``mu``
                 # can replace ``P``.

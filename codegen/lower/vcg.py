@@ -62,7 +62,7 @@ def _program(scene: Problem, method: Method) -> Program:
         minus = stages.builder.lin(f"y{i + 1}", Kind.ALG, [(stages.times_h(-b[i]), xi[i])])
 
         def carried(m: Var) -> Var:
-            # The first stage has i = 0 and e[0] = 1. Each earlier stage contributes one exponential to e[i].
+            # The stages are 0, ..., s-1. The product e[i] contains the exponentials of stages 0, ..., i-1.
             moved = build.adjoint(f"m{i + 1}", e[i], m, inverse=True)
             return build.dual_dexp(f"p{i + 1}", minus, moved)
 

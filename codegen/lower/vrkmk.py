@@ -66,16 +66,16 @@ class _Step(ExpandedStep):
     def _evaluated(self) -> list[Var]:
         """Append the assignments for the velocities and forces of all stages to the program.
 
-        Return variables for the right-hand sides of the equations v_i = dexp^{-1}_{(r),X_i} xi_i, where (r)
-        means that the series of dexp^{-1} ends with the terms with r brackets. The stages are computed from
-        the last to the first.
+        Return variables for the new v_i = dexp^{-1}_{X_i} xi_i, where xi_i is the velocity of stage i. The
+        series of dexp^{-1} is truncated after the terms with r brackets. The stages are computed from the
+        last to the first.
         """
         build, A, b = self.build, self.A, self.b
         lagrange, velocities = dict[int, Var](), dict[int, Var]()
         for i in reversed(range(self.s)):
             own = self.m[i]
-            # The covector m_i depends only on Lambda and on the lambda_j of later stages j > i, if a_ji = 0
-            # for j = 1, ..., i.
+            # If a_ji = 0 for all j <= i, m_i depends only on Lambda and on the covectors lambda_j with j > i.
+            # These lambda_j are already computed.
             if all(A[j][i].is_zero for j in range(i + 1)):
                 terms = [(Coefficient(b[i]), self.transported)]
                 terms += [(Coefficient(A[j][i]), lagrange[j]) for j in range(i + 1, self.s)]

@@ -69,7 +69,10 @@ class _Step(ExpandedStep):
         return [*velocities, *(self._momentum(i) for i in range(self.s))]
 
     def _evaluated(self, i: int) -> Var:
-        """Append the velocity and the force of stage i, and return the new value of v_i."""
+        """Append the velocity xi_i and the force n_i of stage i to the program.
+
+        Return a variable for the value of the unknown v_i in the next iteration.
+        """
         build, X = self.build, self.X[i]
         Q = build.mul(f"Q{i + 1}", self.g[i], self.q)
         xi, n = build.hamilton(f"xi{i + 1}", f"n{i + 1}", Q, self.M[i], *self.time(i))

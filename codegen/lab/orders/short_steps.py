@@ -48,14 +48,15 @@ def order_of_short_steps(compiled: Optimised, stated: int, negligible: float = 0
 
     ``stated`` is the expected order. If rounding errors up to ``negligible`` in the coefficients of the
     method can explain a low order, the result is None (the last case below). Let y0 be the initial state. For
-    each step size h, the state y1 after one step of size h is compared with the state y2 after two steps of
-    size h/2. The result is None in four cases:
+    each of the step sizes h = h1, h2 and h3, the state y1 after one step of size h is compared with the state
+    y2 after two steps of size h/2. The result is None in four cases:
 
     - A step cannot be computed.
     - For some step size h, y1 = y2.
-    - Different pairs of step sizes give orders that differ by more than :data:`AGREEMENT`.
-    - The order is below ``stated``, but rounding errors of the coefficients can be the reason, because
-      |y2 - y1| <= ``negligible`` |y1 - y0| in the maximum norm for some step size h.
+    - The order computed from h1 and h2 differs by more than :data:`AGREEMENT` from the order computed from
+      h2 and h3.
+    - The order computed from h1 and h2 is below ``stated`` - :data:`AGREEMENT`, and for some step size h,
+      |y2 - y1| <= ``negligible`` |y1 - y0| in the maximum norm.
     """
     problem = problem_for(compiled.scene, compiled.method)
     first, last = problem.span

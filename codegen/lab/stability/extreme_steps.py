@@ -51,9 +51,11 @@ TINY = 2.0**-1022
 ROUNDINGS = 256.0
 """A factor in the largest permitted error of a step.
 
-Emitted code makes the step. The step is repeated with simulated rounding errors. Let d be the largest error
-of a coordinate in all repetitions, and let e be about one rounding error of a coordinate. The result of the
-emitted code counts as wrong if its error exceeds ROUNDINGS * (d + e).
+Emitted code makes the step. The step is repeated with simulated rounding errors. Each component of the state
+(for example a group element) is tested separately. Let d be the largest error of a coordinate of the
+component in all repetitions. Let s be the largest absolute value of a coordinate of the component before or
+after the exact step. The result of the emitted code counts as wrong if the error of a coordinate of the
+component exceeds ROUNDINGS * (d + EPSILON * s + TINY).
 """
 
 LEAST = 3

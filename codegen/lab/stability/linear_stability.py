@@ -131,8 +131,9 @@ def _identities(tableau: Tableau) -> Vanishing:
     On the negative real axis and on the imaginary axis, |Q|^2 - |P|^2 is a polynomial (:class:`Vanishing`).
     The tableau can contain rounded decimals and radicals. A coefficient counts as zero only if it is zero for
     all values of these numbers. To test this, the function replaces them by random numbers. The probability
-    of a wrong answer is negligible (:mod:`orderconds.tableau.random_member`). If the tableau has no proof,
-    no coefficient counts as zero.
+    of a wrong answer is negligible (:mod:`orderconds.tableau.random_member`). Only tableaux whose
+    file contains equations for the exact coefficients (the table ``[proof]``) are tested. For all other
+    tableaux, no coefficient counts as zero.
     """
     if tableau.proof is None:
         return Vanishing()
