@@ -283,7 +283,7 @@ def _fits(family: str, tableau: Tableau) -> bool:
 
 
 def _label(family: str, tableau: str) -> str:
-    """Return the label of a method. If the family takes a cut-off, the cut-off 2 is used as an example."""
+    """Return a label such as "cg:rk4" or "rkmk(2):rk4". The 2 is an example of a truncation order."""
     return f"{family}(2):{tableau}" if family_class(family).takes_cutoff else f"{family}:{tableau}"
 
 

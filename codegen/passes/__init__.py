@@ -71,7 +71,7 @@ class Optimiser:
         if composed is not None:
             whole: Program = composed
             self._run(Pass("substeps", "the step is a sequence of substeps", lambda _: whole))
-            # The following passes rewrite one substep, so the results are compared after one substep.
+            # The result of the rewritten substep will be compared with the result of the original substep.
             self.meaning = Reference(_part(composed), scene)
         for each in plain_passes(scene):
             self._run(each)
@@ -172,9 +172,9 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         Pass("shared values", SHARED, value_numbering.run),
         Pass("factored maps", FACTORED, factor_linear.run),
         Pass("maps of shared sums", FACTORED, shared_sums.run),
-        # This pass replaces some products q exp(x) by operations that read only q and x. If Ad_{exp x} is
-        # then the only operation that reads exp(x), the pass "functions of ad" replaces Ad_{exp x} by a
-        # function of ad_x, and exp(x) is not computed.
+        # The pass "functions of ad" replaces Ad_{exp x} by a function of ad_x if no other operation reads
+        # exp(x). A product q exp(x) reads exp(x), so this pass first replaces some of these products by
+        # operations that read only q and x.
         Pass("rows of products", "one operation computes q exp(x)", lambda p: functions.rows(p, scene)),
         Pass("functions of ad", one_ad, lambda p: functions.run(p, scene)),
         # This pass uses operations that the pass "functions of ad" creates.

@@ -67,10 +67,10 @@ CLOSE = 2.0**-200
 """After a tiny step, two results agree if they differ by at most CLOSE times the change of the state."""
 
 AGREE = 2.0**-36
-"""Two vectors x and y agree if |x - y| <= AGREE max(1, |x|) in the maximum norm.
+"""The results x and y of one step of two programs agree if |x - y| <= AGREE max(1, |x|) in the maximum norm.
 
-For tiny steps, the tolerance is :data:`CLOSE`. In 170 comparisons on scenes of the gallery, rounding errors
-were at most 2^-51, far below AGREE.
+If the step size is in :data:`TINY_STEPS`, the criterion of :data:`CLOSE` is used instead. In 170 comparisons
+on scenes of the gallery, rounding errors were at most 2^-51, far below AGREE.
 """
 
 
@@ -238,13 +238,18 @@ class Reference:
     def _in_some_step(self, program: Program, point: _Point) -> str | None:
         """Compare the results of ``program`` and of the reference program after one step.
 
-        Return a description of the difference, or '' if there is no difference. The reference program makes
-        steps of different lengths from one state, and ``point`` contains the results. The lengths are tried
-        in decreasing order. The comparison uses the first length for which ``program`` does not fail.
-        ``program`` fails if a result is NaN, or if an exception is raised. For example, an exception is
-        raised if an iteration does not converge. If ``program`` fails for all lengths, return a description
-        of a failure, or None if the reference program also fails for all lengths in arithmetic with
-        :data:`FEW_DIGITS` digits.
+        The reference program makes steps of different lengths from one state, and ``point`` contains the
+        results. The lengths are tried in decreasing order. The comparison uses the first length for which
+        ``program`` does not fail. ``program`` fails if a result is NaN, or if an exception is raised. For
+        example, an exception is raised if an iteration does not converge.
+
+        The result is one of the following:
+        - the description of a difference, or '' if there is no difference;
+        - the description of a failure, if ``program`` fails for all lengths, but the reference program does
+          not;
+        - None, if both programs fail for all lengths.
+
+        The reference program is tested for failure in arithmetic with :data:`FEW_DIGITS` digits.
         """
         failure = None
         for step in point.results():

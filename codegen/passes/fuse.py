@@ -16,7 +16,7 @@ def run(program: Program) -> Program:
 
     def rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
         if isinstance(assign.operation, Act):
-            # The pass replaces act(g, y) only if the program computes g = exp(x).
+            # The pass replaces act(g, y) by actexp(x, y) if the program computes g as exp(x).
             source = rewriter.definitions.get(assign.args[0])
             if (
                 source is not None

@@ -86,13 +86,13 @@ def _together(body: tuple[Assign, ...], builder: Builder) -> tuple[Assign, ...]:
     groups: dict[tuple[str, Pattern], list[tuple[Var, Coefficient]]] = {}
     for v in dict.fromkeys(v for a in sums.values() for v in a.args):
         places = [(k, c) for k, a in sums.items() for c, x in a.terms if x == v]
-        # Each coefficient of v is divided by the first coefficient of v. For example, the coefficients 3, 6
-        # become 1, 2.
+        # The coefficient of v in each sum is divided by the coefficient of v in the first of these sums. For
+        # example, the terms 3 v and 6 v in two sums give the quotients 1 and 2.
         unit = places[0][1]
         relative = tuple((k, Coefficient(c.value / unit.value, c.power - unit.power)) for k, c in places)
         # ``distinct`` is False if a sum contains v twice, with different powers of h.
         distinct = len({k for k, _ in places}) == len(places)
-        # The quotients in ``relative`` must not contain negative powers of h.
+        # The value v is skipped if a quotient of its coefficients is a negative power of h, such as h/h^2.
         if len(places) > 1 and distinct and all(c.power >= 0 for _, c in relative):
             groups.setdefault((v.kind.value, relative), []).append((v, unit))
     totals: list[Assign] = []

@@ -70,7 +70,8 @@ def run(program: Program, scene: Problem) -> Program:
             body.append(replace(statement, args=tuple(names.get(a, a) for a in statement.args)))
             continue
         block = replace(statement, starts=tuple(names.get(a, a) for a in statement.starts))
-        # All paths are taken from the block before it is changed.
+        # The function ``path`` must read the original block, so all calls come before the loop that changes
+        # the block.
         paths = [p for p in (path(block, u) for u in block.unknowns) if p is not None]
         for route in paths:
             block = _turned(block, route, build)
@@ -157,12 +158,9 @@ def _undone(build: Builder, assign: Assign, value: Var) -> Var:
 def _values(build: Builder, route: Path) -> tuple[dict[Var, Var], Var]:
     """Append assignments that compute the momentum ``route.base`` from the unknown ``route.unknown``.
 
-    The maps of ``route`` compute ``route.unknown`` from ``route.base``. The new assignments apply the
-    inverses of these maps, in reverse order.
-
-    The first result maps each variable v of ``route`` to a variable v* that is computed from
-    ``route.unknown``. If the unknown satisfies its equation, v* is equal to v. The second result is v* for
-    v = ``route.base``.
+    For example, ``route`` computes v = A m from the base m, and z = B v. The equation of the unknown u is
+    u = z. The new assignments compute v* = B^{-1} u and m* = A^{-1} v*. The results are the dictionary
+    {z: u, v: v*, m: m*} and the variable m*. If u satisfies the equation, then v* = v and m* = m.
     """
     replaced: dict[Var, Var] = {}
     value = route.unknown

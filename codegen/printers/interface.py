@@ -23,7 +23,10 @@ MODES = ("modes",)
 """The field ``modes`` of :class:`Interface`. The manifest contains this field only if its value is True."""
 
 RUN = ("integrated", "controlled", "events", "dense")
-"""The fields that :meth:`Interface.as_json` omits if ``integrated`` is False."""
+"""The fields of :class:`Interface` about runs to a given end time.
+
+The manifest contains these fields only if the module has a function for these runs.
+"""
 
 
 @dataclass(frozen=True)

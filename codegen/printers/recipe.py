@@ -48,7 +48,7 @@ The limit applies to states with more than :data:`LONGEST_STATE` coordinates.
 """
 
 
-IN_MANIFEST = "copy the initial state from the manifest to the variable state"
+IN_MANIFEST = "copy the initial state from the manifest to 'state'"
 """A comment for usage examples that do not contain the initial state."""
 
 

@@ -47,8 +47,8 @@ class Target:
       and returns the elapsed time in seconds.
     - ``observer`` is a function (integrator, state, t, h) that makes one step and returns the solved unknowns
       of each substep.
-    - ``stack`` is a regular expression for the file of the step. The first group matches the bound on
-      the stack memory in bytes.
+    - ``stack`` is a regular expression that finds the bound on the stack memory in the text of the emitted
+      step. The first group matches the number of bytes.
     - ``batches`` is True if a module can have a function that integrates a batch of systems.
     - ``lattice_loader`` loads modules for lattices.
     - ``spectral_loader`` loads modules for semilinear equations.

@@ -249,8 +249,9 @@ class _Exponential:
         """
         terms, bound, theta = count("terms"), real("bound"), real("theta")
         # Let z be the exponent, ``theta`` its norm, and n the number ``terms``. The series of phi(z) is
-        # truncated after the term z^n/(n + 1)!. Therefore the first omitted term of exp(z) - 1 = z phi(z) is
-        # z^(n + 2)/(n + 2)!. The norm of this term is at most ``bound`` = theta^(n + 2)/(n + 2)!.
+        # truncated after z^n/(n + 1)!, so the first omitted term is z^(n + 1)/(n + 2)!. Therefore the first
+        # omitted term of exp(z) = 1 + z phi(z) is z^(n + 2)/(n + 2)!. The norm of this term is at most
+        # ``bound`` = theta^(n + 2)/(n + 2)!.
         tiny = 0.5 * self.precision.unit
         yield Assign(theta, size)
         yield Assign(terms, whole(0))
@@ -281,7 +282,7 @@ class _Exponential:
         terms, order, factor = count("terms"), count("order"), real("ratio")
         first = self.gram.part(0, 0, m, k)
         entry = loops.entry(self.total, _ROW, _COLUMN)
-        # ``total`` becomes the first m rows of B^T X, where X is the current point.
+        # ``total`` becomes the first m rows of B^T X. X is the current point, and B is the basis of the step.
         copied = Assign(entry, loops.entry(first, _ROW, _COLUMN))
         yield For(_ROW, whole(m), (For(_COLUMN, whole(k), (copied,)),))
         moved_by = Multiplication(

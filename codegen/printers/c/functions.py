@@ -43,8 +43,11 @@ from codegen.snippets.graph import LIBRARY
 MANY = 20
 """If more than ``MANY`` short statements follow each other, several statements are printed on each line."""
 
-ONE_TEST = "If the sum of all x overflows, test each x: x - x is 0 or, for infinite x, NaN."
-"""The comment before a test that all numbers x are finite. The test first checks the sum of all x."""
+ONE_TEST = "If the sum of all x overflows, test each x: x - x is 0 only if x is finite."
+"""A comment in the emitted code, above a test whether several numbers are all finite.
+
+If the sum of the numbers is finite, all numbers are finite. However, a sum of finite numbers may overflow.
+"""
 
 
 class FunctionPrinter:
@@ -238,7 +241,7 @@ class _Body:
         return lines
 
     def before(self, statement: Statement) -> list[str]:
-        """Return the lines that declare variables before a statement.
+        """Return the declarations that must be printed before ``statement``.
 
         Consecutive variables of one type share a declaration.
         """
@@ -281,7 +284,7 @@ class _Body:
                 yield "}"
 
     def hints(self, loop: For) -> Iterator[str]:
-        """Yield the directives that precede a loop: for vector instructions and for OpenMP."""
+        """Yield the directives that allow vector instructions and OpenMP threads in ``loop``."""
         # The macro INDEPENDENT allows gcc and clang to use vector instructions.
         if loop.independent:
             yield f"{self.printer.prefix.upper()}INDEPENDENT"
@@ -374,7 +377,7 @@ class _Body:
         # C does not allow ``+=`` in a declaration.
         if changed and not kind:
             more = self.terms.text(value.args[1])
-            # The text 1 is always an integer, because a real literal has a decimal point.
+            # A real number 1 is printed as "1.0" or "1.0f", so "1" is always an integer.
             if value.op in "+-" and more.line == "1":
                 # For the target ``*x``, ``(*x)++`` is printed, because ``*x++`` increments the pointer ``x``.
                 yield f"({name}){value.op * 2};" if name.startswith("*") else f"{name}{value.op * 2};"

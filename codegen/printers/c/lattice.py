@@ -8,7 +8,7 @@ from codegen.printers.interface import Interface
 from codegen.printers.recipe import Recipe
 
 SIDES = {1: 1000, 2: 64, 3: 16}
-"""The number of sites along each axis in the usage example, for lattices of dimension 1, 2 and 3."""
+"""In the usage example, a lattice of dimension n = 1, 2 or 3 has SIDES[n] sites along each axis."""
 
 
 def lattice_usage(interface: Interface, recipe: Recipe) -> list[str]:

@@ -199,7 +199,7 @@ class _Body:
         first = self.terms.line(one(group[0]).args[0])
         # The indices must be consecutive, because a slice selects consecutive entries.
         neighbours = all(b == (entries[0] or 0) + k for k, b in enumerate(entries))
-        # ``same`` is True if ``statement`` and ``group[0]`` read (or write) entries of the same list.
+        # The entry in ``statement`` and the entry in ``group[0]`` must belong to the same list.
         same = self.terms.line(one(statement).args[0]) == first
         changed = root(one(statement)).text
         # Assignments that write to a list are joined only if they do not read this list. For example,
@@ -327,7 +327,7 @@ class _Body:
 
 def _entry(term: Term) -> int | None:
     """Return k if ``term`` is a scalar a[k] with a constant k. Otherwise return None."""
-    # If the index k is a variable of the emitted code, its value is not known here.
+    # If the index ``term.args[1]`` is a variable, its value is known only when the emitted code runs.
     if term.op != "item" or term.shape or term.args[1].op != "number":
         return None
     return int(term.args[1].number)
