@@ -224,7 +224,7 @@ def _split(plan: Plan) -> tuple[list[Statement], list[Statement]]:
 
 
 def _batch(plan: Plan, work: list[Statement]) -> Function:
-    """Return the public function of the batch. The statements ``work`` make the steps of all systems."""
+    """Return the public function of the batch. ``work`` contains the statements that advance all systems."""
     statuses, ended = _statuses(), count("completed", 0)
     bad = count("bad")
     flag = Term("name", (), Kind.FLAG, bad.text)
@@ -237,7 +237,8 @@ def _batch(plan: Plan, work: list[Statement]) -> Function:
         If(flag, (Return(code(BAD_STEP)),)),
         *work,
         Assign(STATUS, code(OK)),
-        # The loop runs backwards, so the result is the status of the failed lane with the smallest index.
+        # The result is the status of the failed lane with the smallest index, because the loop runs
+        # backwards, and each failed lane overwrites STATUS.
         For(
             _LANE,
             _TOTAL,

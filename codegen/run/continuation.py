@@ -49,8 +49,8 @@ LARGEST_FACTOR = 4.0
 def retried(plan: Plan, state: Term, arguments: tuple[Term, ...]) -> list[Statement]:
     """Return the statements that call the function CONTINUED after a failed step.
 
-    CONTINUED repeats the step with other initial guesses, and passes them in the memory of the warm start.
-    Therefore the list is empty for steps without a warm start.
+    CONTINUED repeats the step with other initial guesses. Only steps with a warm start read their initial
+    guess from the argument ``memory``, so the list is empty for all other steps.
     """
     # Steps without a warm start store no solutions.
     if plan.start is None:
@@ -108,8 +108,8 @@ class _Continuation:
             Assign(self.solved, number(0.0)),
             Assign(self.part, number(1.0)),
             Assign(self.factor, number(2.0)),
-            # This value is never read, because ``failure`` is read only after a failed attempt, and a failed
-            # attempt overwrites the value. Without an initial value, a C compiler may warn about ``failure``.
+            # ``failure`` is read only after a failed attempt, and each failed attempt assigns ``failure``.
+            # The initial value here only prevents a warning of C compilers.
             Assign(self.failure, code(NOT_CONVERGED)),
             Assign(self.done, truth(False)),
             Assign(self.tries, whole(0)),
@@ -117,7 +117,8 @@ class _Continuation:
             If(negated(self.done), (Return(self.cause()),)),
             # The state is changed only here, after an attempt with the full step size h has succeeded.
             Assign(state, self.trial),
-            # With ``known`` = 1, the next step uses only the last solution.
+            # The number of stored solutions (``known``) becomes 1. The initial guess of the next step is the
+            # solution of this step.
             Assign(plan.memory.field("known", Kind.COUNT), whole(1)),
             no_failure(plan),
             Return(code(OK)),
@@ -170,7 +171,7 @@ class _Continuation:
         ]
 
     def adapted(self) -> list[Statement]:
-        """Return the statements after an attempt. They end the loop or choose the next step size."""
+        """Return the statements that choose the next step size or end the loop if the full step succeeded."""
         plan, factor, part, solved = self.plan, self.factor, self.part, self.solved
         assert plan.start is not None
         values = plan.memory.field("values", Kind.REAL, (2 * plan.start.depth, self.n))

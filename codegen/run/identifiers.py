@@ -17,9 +17,10 @@ from codegen.run.terms import Term, names
 
 @dataclass(frozen=True)
 class Identifiers:
-    """The identifiers in one emitted function. They replace the names of the kernel.
+    """The identifiers of variables in one emitted function.
 
-    An identifier is a text: the name of a variable, or ``array[k]``.
+    ``by_name`` is a dictionary from the name of a variable in the kernel to the identifier of this variable
+    in the emitted function, for example from ``f.0`` to ``f[0]``. An identifier is a name or ``array[k]``.
     """
 
     by_name: Mapping[str, str]

@@ -193,7 +193,8 @@ class _Step:
         The pair (X, Y) is ``step.commutators[number_of]``.
         """
         left, right = self.step.commutators[number_of]
-        # ``letters`` needs an ``Element``. The element here is the commutator [X, Y] with coefficient 1.
+        # The emitted function needs each letter (a matrix) that occurs in X or Y. These are the letters of
+        # the commutator [X, Y], which is an ``Element`` with one term and the coefficient 1.
         own_letters = self.letters(Element(None, ((Number.rational(1), number_of),)))
         x, y, first, second = (self.stored.vector(name) for name in ("x", "result", "first", "second"))
         body: tuple[Statement, ...] = (

@@ -272,7 +272,8 @@ class _Exponential:
 
         inner = (
             If(
-                # The loop begins with the terms of the highest degree.
+                # The loop over ``group`` runs backwards from ``groups`` - 1, so this condition is false only
+                # in the first iteration.
                 group + 1 < groups,
                 (self.product(result, b4, work),),
                 (For(_PLACE, whole(self.size), (start,)),),

@@ -25,8 +25,9 @@ def numbers_held(unit: Unit) -> int:
         # A public function may call another public function, for example ``step`` calls ``run``.
         return held[name] + max(map(together, sorted(calls[name] & public)), default=0)
 
-    # A program calls only one function of ``public`` at a time. A compiler may inline the functions that are
-    # not in ``public`` into the called function, so the scalars of all these functions are added.
+    # A program calls only one function of ``public`` at a time, so a maximum over these functions is enough.
+    # A compiler may inline all functions outside ``public`` into the called function. Therefore the scalars
+    # of all functions outside ``public`` are added to the maximum.
     return sum(held.values()) - sum(held[name] for name in public) + max(map(together, public))
 
 
@@ -38,7 +39,8 @@ def _held(unit: Unit, function: Function, identifiers: Identifiers) -> int:
             arguments = len(statement.arguments) + len(statement.results)
             passed += arguments if arguments > REGISTERS else 0
         if isinstance(statement, Array):
-            # Two arrays with the same name, for example in two loops, may have different addresses.
+            # Two arrays with the same name, for example in two loops, may have different addresses, so both
+            # arrays are counted.
             arrays += prod(statement.name.shape) * _size(unit, statement.name)
             continue
         # A scalar that is assigned several times has one place on the stack, so it counts once.

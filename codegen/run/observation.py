@@ -300,11 +300,11 @@ class Observation:
     def _guess(
         self, high: Term, ahead: Term, trials: Term, width: Term, low_weight: Term, high_weight: Term
     ) -> tuple[Statement, ...]:
-        """Return the statements that choose ``middle``: the next fraction of the step to test for events."""
+        """Return the statements that choose ``middle``, the next point between ``low`` and ``high``."""
         i, estimate, difference = count("i"), real("estimate"), real("difference")
         # For each event function with a change of sign, let a and b be the values at ``low`` and ``high``,
-        # multiplied by the weights of the Illinois method (:meth:`_moved`). A secant interpolates a and b.
-        # The earliest zero of a secant is chosen. In every third iteration, the midpoint is chosen instead.
+        # multiplied by the weights of the Illinois method (:meth:`_moved`). The secant through a and b has
+        # one zero z. The smallest z of these functions is chosen, or the midpoint in every third iteration.
         a, b = self.values[i] * low_weight, ahead[i] * high_weight
         # Either a and b have opposite signs, or b is zero. Therefore 0 <= a/(a - b) <= 1. If a and b
         # underflow, the divisor a - b is 0. In this case the midpoint is the estimate.
@@ -352,7 +352,7 @@ class Observation:
         return moved_high, moved_low
 
     def time_at(self, fraction: Term) -> Term:
-        """Return the time at a fraction of the step. The fraction 1 gives exactly the final time."""
+        """Return the time at a fraction of the step. Fraction 1 gives exactly the end time of the step."""
         inner = self.now + fraction * self.length
         return select(fraction >= 1.0, self.following, inner)
 
@@ -395,7 +395,7 @@ class Observation:
         return Function(EVENTS, about, parameters, body, Kind.STATUS)
 
     def recorded(self) -> tuple[Statement, ...]:
-        """Return the statements that store an event for each event function with a change of sign."""
+        """Return the statements that test all event functions and store an event for each change of sign."""
         i, rising, place = count("i"), count("rising"), self.event_count[0]
         # ``stops[i]`` has two bits for event function i. If the bit RISING = 1 is set, a rising zero ends the
         # run. If the bit FALLING = 2 is set, a falling zero ends the run.

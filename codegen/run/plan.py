@@ -132,7 +132,7 @@ class Plan:
 
     @property
     def counted(self) -> tuple[Term, ...]:
-        """A tuple with the argument for statistics. The tuple is empty if ``counting`` is False."""
+        """``(statistics,)`` if ``counting`` is True, otherwise ``()``: arguments of emitted functions."""
         return (self.statistics,) if self.counting else ()
 
     def moment(self, t: Term = TIME, h: Term = STEP) -> tuple[Term, ...]:

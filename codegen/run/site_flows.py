@@ -173,10 +173,10 @@ class _Part:
         return [*loops, *ends, self.pairs() if self.paired else self.all_sites()]
 
     def entry(self, row: Row, neighbour: int) -> Term:
-        """Return the entry of a row at one site.
+        """Return the entry of ``row`` for one site.
 
-        In a flow of single sites, ``neighbour`` is OWN. In a flow of pairs, ``neighbour`` is OWN for the
-        first site of a pair, and 0 for the second site.
+        A row contains one number for each site of the lattice. In a flow of single sites, ``neighbour`` is
+        OWN. In a flow of pairs, ``neighbour`` is OWN for the first site of a pair, and 0 for the second site.
         """
         place = PLACE if neighbour == OWN else _NEAR
         array = ARRAYS[row.array]
@@ -270,7 +270,10 @@ class _Part:
         return Function(name, about, parameters, tuple(body), Kind.COUNT, often=True, near=near)
 
     def _called(self, arguments: tuple[Term, ...], *results: Term) -> list[Statement]:
-        """Return a call of ``flow_K``, or of ``whole_K`` if it exists and WHOLE is true. K is ``index``."""
+        """Return the statements that call ``whole_K`` if WHOLE is true at run time, and otherwise ``flow_K``.
+
+        K is ``index``. If ``whole_K`` does not exist, the statements always call ``flow_K``.
+        """
         given = (*arguments, SITES, *self.arrays, *self.scalars)
         call = Call(f"flow_{self.index}", given, results)
         if not self.special:
@@ -310,7 +313,7 @@ class _Part:
                 body.append(chunks(pairs, self._called((_ROW + _COLOUR + 2 * FIRST, SIZE))))
             if periodic:
                 # The first site of this pair is in the last column. The number of columns is even, so the
-                # last column has an odd index. A pair has the colour 1 if the index of its first site is odd.
+                # last column has an odd index. Therefore this pair has the colour 1.
                 ends = (_ROW + COLUMNS - 1, _ROW, SITES, *self.arrays, *self.scalars)
                 body.append(If(_COLOUR > 0, (Call(f"pair_{self.index}", ends),)))
         else:

@@ -11,9 +11,10 @@ D_i^{-1} A_i then overwrites A_i, D_i^{-1} overwrites B_i, and D_i^{-1} C_i over
 only within a pivot block.
 
 For a periodic chain, let x be Newton's correction at the last site, and let y be the correction at all other
-sites. The linear equations are T y + E x = r and F y + G x = s. The matrix T is block-tridiagonal, and the
-vectors r and s are residuals. The matrix E is called the border. Block elimination computes T^{-1} E and
-T^{-1} r. The equation (G - F T^{-1} E) x = s - F T^{-1} r determines x. Then y = T^{-1} r - T^{-1} E x.
+sites. Newton's matrix consists of four submatrices T, E, F and G. The linear equations are T y + E x = r for
+all other sites, and F y + G x = s for the last site. The matrix T is block-tridiagonal, and the vectors r and
+s are residuals. The matrix E is called the border. Block elimination computes T^{-1} E and T^{-1} r. The
+equation (G - F T^{-1} E) x = s - F T^{-1} r determines x. Then y = T^{-1} r - T^{-1} E x.
 """
 
 from __future__ import annotations
@@ -281,8 +282,9 @@ class ChainSolver:
 
         The border contains the coefficients of the last site's unknowns in the equations of all other sites.
         """
-        # The neighbours of the last site ``_INNER`` are site 0 and site ``_LAST`` = ``_INNER`` - 1. Only the
-        # equations of these neighbours have nonzero coefficients in the border.
+        # The block elimination visits the sites 0, ..., ``_LAST``, and omits the last site of the chain. The
+        # neighbours of the omitted site are the sites 0 and ``_LAST``. Only the equations of these two
+        # neighbours have nonzero coefficients in the border.
         n, ends = self.n, []
         for site, block in ((whole(0), LEFT), (_LAST, RIGHT)):
             there = self.border(site, _I, _J)
@@ -304,8 +306,9 @@ class ChainSolver:
         n = self.n
         first = row_of(self.step, _J * n + self.newton.border)
         solved = For(_J, whole(n), (Call(self.name("substitute"), (_INNER, SITES, self.work, first)),))
-        # In the periodic chain 0, ..., ``_INNER``, the right neighbour of site ``_INNER`` is site 0. The left
-        # neighbour of site ``_INNER`` is site ``_LAST`` = ``_INNER`` - 1.
+        # The block elimination visits the sites 0, ..., ``_LAST``, and omits the last site of the chain, site
+        # ``_INNER``. The right neighbour of the omitted site is site 0, and the left neighbour is site
+        # ``_LAST``.
         right = self.cell(_INNER, RIGHT, _I, _K) * self.border(whole(0), _K, _J)
         left = self.cell(_INNER, LEFT, _I, _K) * self.border(_LAST, _K, _J)
         pivot = (
@@ -353,9 +356,12 @@ class ChainSolver:
         return Function(self.name("correct"), about, (SITES, self.work, MEASURED), tuple(body))
 
     def border_solved(self, first: Term) -> list[Statement]:
-        """Return the statements that solve for the last site of a periodic chain and correct the other sites.
+        """Return the statements that complete Newton's correction in a periodic chain.
 
-        ``first`` is the index in the workspace at which the right-hand side begins.
+        Before these statements, the corrections at all sites except the last were computed as if the
+        correction at the last site were zero. The statements compute the correction at the last site, and
+        then subtract the effect of this correction from the corrections at the other sites. ``first`` is the
+        index in the workspace at which the right-hand side begins.
         """
         n, value = self.n, real("value", self.n)
 
