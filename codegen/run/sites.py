@@ -438,7 +438,7 @@ def advance_parameters(plan: Plan, step: SiteStep) -> tuple[Term, ...]:
 def _too_small(step: SiteStep) -> Term:
     """Return a test that is true if the step cannot be computed on a lattice of the given shape.
 
-    In a periodic lattice, ``shape[e]`` must be even if a sweep pairs neighbours in dimension e.
+    If a step changes pairs of neighbours in dimension e of a periodic lattice, ``shape[e]`` must be even.
     """
     shape, tests = shape_of(step), []
     for e in range(step.dimension):
@@ -447,7 +447,7 @@ def _too_small(step: SiteStep) -> Term:
         far = max(abs(offset[e]) for offset in step.offsets) if step.periodic else 0
         tests.append(shape[e] <= far if far else shape[e].equals(whole(0)))
         if step.periodic and any(sweep.axis == e for sweep in step.sweeps):
-            # With an odd number of sites, two pairs of a sweep would have a common site.
+            # For example, a periodic row of 3 sites has the pairs (0, 1) and (2, 0) with a common site.
             tests.append((shape[e] % 2).equals(whole(1)))
     return either(*tests)
 

@@ -241,7 +241,7 @@ class Candidate:
         """Return a text with the results of the trial steps for block number ``k`` of the kernel."""
         # If the first trial failed, there was no second trial, and ``far`` is None.
         if self.far is None:
-            return f"does not converge in {self.usual.steps} steps of size h = {self.usual.h:.6g}"
+            return f"fails in one of the first {self.usual.steps} steps of size h = {self.usual.h:.6g}"
         text = f"{counted(self.usual, k)}, predicted {self.block(k):.0f} ns"
         if self.robust:
             return text
@@ -375,7 +375,8 @@ class _Selection:
             n = len(loop.unknowns)
             # The product of the inverse and a vector takes n^2 multiplications and about n^2 additions.
             total += Amounts(arithmetic=2 * n * n).times(self.parts)
-            # In the best case, Newton's method inverts each matrix only once in ``trial_steps`` steps.
+            # Simplified Newton inverts matrices in every step. In the best case, Newton's method inverts
+            # matrices only in the first step of the trial.
             if n > SMALL:
                 total += inversion(n).times(
                     self.parts / (1 if solver == SIMPLIFIED_NEWTON else trial_steps(self.fixed))

@@ -93,7 +93,7 @@ def functions(plan: Plan) -> tuple[Function, ...]:
 
 
 def usable_tolerances() -> Term:
-    """Return the test whether both tolerances are finite and not negative, and one is positive.
+    """Return the test whether both tolerances are finite and not negative, and at least one is positive.
 
     If both tolerances were zero, every step would be rejected. With an infinite tolerance, every step would
     be accepted.

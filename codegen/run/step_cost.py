@@ -146,7 +146,7 @@ class StepCost:
     """
 
     def __init__(self, kernel: Kernel) -> None:
-        # The operations are counted only once, because the choice of a solver reads the counts many times.
+        # ``work`` stores the operation counts, because the choice of a solver reads the counts many times.
         self.kernel, self.work = kernel, operations(arrange(kernel))
 
     def amounts(self, sweeps: Sequence[float], matrices: Sequence[float]) -> Amounts:

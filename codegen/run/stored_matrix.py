@@ -89,8 +89,7 @@ def _rebuilt(space: Space, node: Expr, args: Sequence[Expr]) -> Expr:
 class StoredMatrix(ABC):
     """The layout of matrices in arrays, and the emitted functions that evaluate and multiply matrices.
 
-    A step evaluates the matrix A at the times t_i. In this class, a letter is a linear combination of the
-    matrices h A(t_i).
+    A step evaluates the matrix A at the times t_i.
     """
 
     def __init__(self, matrix: TimeMatrix, columns: int, nodes: int) -> None:
@@ -206,7 +205,7 @@ class BandedMatrix(StoredMatrix):
             for place, d in enumerate(matrix.diagonals):
                 if d.offset == offset:
                     entries.append((term, d.entry, table_name(matrix, place)))
-        # Entry ``number * n + i`` of ``result`` belongs to row i of the matrix.
+        # ``result`` contains one diagonal after the other. Each diagonal has n places, one for each row i.
         target = result[_at(number * self.n, i)]
         body = (
             *self.before(entries, i, j),

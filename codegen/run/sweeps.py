@@ -376,9 +376,9 @@ class _Newton(_Loop):
     def prepared(self) -> list[Statement]:
         """Return the statements that compute and invert the matrix before the sweeps of a step.
 
-        If the elimination fails, the emitted function returns NOT_FINITE if the array of the matrix contains
-        an infinity or a NaN after the elimination, and SINGULAR otherwise. If formulas compute no usable
-        inverse, the emitted function returns NOT_FINITE.
+        After a failed elimination, the emitted function returns SINGULAR if all numbers in the array of the
+        matrix are finite, and NOT_FINITE if the array contains an infinity or a NaN. If formulas compute no
+        usable inverse, the emitted function returns NOT_FINITE.
         """
         sequence = self.entries()
         if self.newton.inverted:

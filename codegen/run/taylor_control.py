@@ -76,7 +76,7 @@ ORDER_TERM = own(ORDER)
 
 
 def functions(plan: Plan) -> tuple[Function, ...]:
-    """Return the function of the run with step control, and the functions that it calls.
+    """Return functions that ``run_adaptive`` (the run with step control) calls, then ``run_adaptive`` itself.
 
     If the kernel has no Taylor expansion with step control, the tuple is empty.
     """
@@ -182,8 +182,8 @@ class _Controlled:
         listed.append(self.evaluate())
         if leave is not None:
             about = (
-                "Convert the value of the Taylor polynomial to the state after the step. The first array "
-                "contains two vectors: the state before the step and the value of the polynomial."
+                "Convert the value of the Taylor polynomial to the state after the step. The argument "
+                "state contains the state before the step, then the value of the polynomial."
             )
             listed.append(filling(Plan(leave, self.plan.format), LEAVE, about, self.trial))
         return tuple(listed)

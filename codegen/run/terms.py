@@ -336,12 +336,13 @@ def given(argument: Term) -> Term:
 
 
 def absent(parameter: Term) -> Term:
-    """Return the term for an omitted optional argument: NULL in C, None in Python.
+    """Return the argument that a call passes in place of an omitted optional argument.
 
-    ``parameter`` is the parameter of the called function for which no argument is given.
+    The argument is printed as NULL in C and as None in Python. ``parameter`` is the parameter of the called
+    function.
     """
-    # The printers read the kind and the shape of an omitted argument, too. Therefore the new term keeps the
-    # kind and the shape of ``parameter``.
+    # The printers read the kind and the shape of the argument. ``replace`` keeps the kind and the shape of
+    # ``parameter``.
     return replace(parameter, op="none", args=())
 
 
@@ -366,7 +367,11 @@ def narrow(x: Term) -> Term:
 
 
 def names(terms: Iterable[Term]) -> Iterator[Term]:
-    """Yield the variables in ``terms``, including a variable for each symbol of an expression."""
+    """Yield the variables in ``terms``.
+
+    If a term contains an expression (:attr:`Term.value`), the symbols of the expression are names of
+    variables. These variables are yielded, too.
+    """
     # ``pop`` takes the last term of the list, so the terms are listed in reverse order.
     waiting = list(terms)[::-1]
     while waiting:

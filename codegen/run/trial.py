@@ -65,7 +65,7 @@ class Trials:
     def run(self, steps: int, longer: int = 1) -> Trial:
         """Make ``steps`` steps from the initial state and return the results.
 
-        Let T be the length of the time span. The step size is ``longer * T / PARTS``.
+        The step size is ``longer * T / PARTS``, where T is the length of the time span of the scene.
         """
         first, last = self.span
         number, loops = len(self.plan.kernel.inputs), self.plan.kernel.loops

@@ -45,8 +45,9 @@ def _exponential(function: SpecialUnitaryExponential, precision: Precision, coef
     body: tuple[Statement, ...] = (
         Array(y),
         Array(work),
-        # Let i H be the matrix with the coordinates a, and let p = tr(H^2)/2. The absolute values of the
-        # eigenvalues of H are at most (4 p/3)^(1/2).
+        # Let i H be the matrix with the coordinates a, and let p = tr(H^2)/2. The eigenvalues x, y, z of H
+        # satisfy x + y + z = 0 and x^2 + y^2 + z^2 = 2 p. Because y^2 + z^2 >= (y + z)^2/2 = x^2/2, it
+        # follows that |x| <= (4 p/3)^(1/2).
         Assign(norm, call("sqrt", 1.3333333333333333 * half_trace(_coordinates(a)))),
         Assign(scale, number(1.0)),
         Assign(squarings, whole(0)),
@@ -138,13 +139,14 @@ def _horner(part: list[Term], trace: Term, det: Term, added: tuple[Term, int] | 
     ``det`` is the determinant of H, and I is the identity matrix. ``part`` contains the real parts or the
     imaginary parts of the coefficients of I, H and H^2.
 
-    If ``added`` is a pair (a, k), the number i^k a is added to the complex coefficient of I. For even k,
-    ``part`` must contain the real parts, and for odd k the imaginary parts. If ``added`` is None, nothing is
+    If ``added`` is a pair (a, k) with a real number a, the number i^k a is added to the coefficient of I,
+    where i is the imaginary unit. For even k, i^k a is real, and ``part`` must contain the real parts. For
+    odd k, i^k a is imaginary, and ``part`` must contain the imaginary parts. If ``added`` is None, nothing is
     added.
     """
     last = real("last")
-    # The number a is real. For k = 0, 1, 2, 3, the number i^k a is a, i a, -a, -i a. ``constant`` is this
-    # number without the factor i: a, a, -a, -a.
+    # For k = 0, 1, 2, 3, the number i^k a is a, i a, -a, -i a. ``constant`` is this number without the factor
+    # i: a, a, -a, -a.
     constant = number(0.0) if added is None else -added[0] if added[1] >= 2 else added[0]
     return [
         # The old coefficient of H^2 is saved, because the last two statements still need it.

@@ -179,11 +179,11 @@ class WarmStart:
                 ),
             ]
         about = (
-            "Let d_0, ..., d_order be the coefficients of the backward difference of the given order. Let "
+            "Let 1, d_1, ..., d_order be the coefficients of the backward difference of the given order. Let "
             "u_0 be the latest stored solution, and u_k the solution k steps earlier. If first = 0 "
-            "and sign = 1, compute sum = d_0 u_0 + ... + d_order u_order, the backward difference. "
-            "If first = 1 and sign = -1, compute sum = -(d_1 u_0 + ... + d_order u_(order-1)), the value of "
-            "the polynomial through u_0, ..., u_(order-1) at the next step."
+            "and sign = 1, compute the backward difference sum = u_0 + d_1 u_1 + ... + d_order u_order. "
+            "If first = 1 and sign = -1, extrapolate to the next step, so that the backward difference "
+            "sum + d_1 u_0 + ... + d_order u_(order-1) is zero."
         )
         parameters = (self.memory, order, first, sign, result)
         return Function("difference", about, parameters, tuple(body), often=True)
@@ -205,7 +205,8 @@ class WarmStart:
             inner.append(Assign(partial, partial + sign * (newer * later + older * earlier)))
         return [
             *(Assign(partial, number(0.0)) for partial in sums),
-            # The latest solution is added last, so the other additions need not wait for it.
+            # The latest solution is added last. Therefore a processor can do all other additions before the
+            # latest solution is known.
             For(pair, (order - first) // 2 + 1, tuple(inner), reverse=True),
             *(Assign(result[k], partial) for k, partial in enumerate(sums)),
         ]

@@ -1,9 +1,9 @@
 """Classical forms of a scene: its equations in the coordinates that are usual for a general ODE solver.
 
 A form is a problem on R^n with a map to the state of the scene. The first form uses the coordinates of the
-scene. Another form can use the body frame (:mod:`codegen.scene.body_frame`). If a nonabelian group acts on
-itself, and a factor of the group has a covering group, the last form uses the coordinates of the covering
-group.
+scene. If a nonabelian group acts on itself, there can be two more forms: a form in the body frame
+(:mod:`codegen.scene.body_frame`), and a form in which covering groups replace factors of the group, for
+example unit quaternions in place of rotation matrices.
 """
 
 from __future__ import annotations
@@ -374,9 +374,9 @@ class _Change:
         return (*velocity, *force)
 
     def turned(self, leaf: _Leaf, roots: Sequence[Expr]) -> Vector[Expr]:
-        """Return the velocity of the factor ``leaf``.
+        """Return the velocity of the factor ``leaf`` in the body frame.
 
-        The velocity is in the body frame if the factor has left translations, otherwise in the space frame.
+        If ``leaf.group`` is not a :class:`LeftTranslation`, the velocity in the space frame is returned.
         ``roots`` contains the velocities of all factors in the space frame.
         """
         own = tuple(roots[leaf.at : leaf.at + leaf.group.dim])

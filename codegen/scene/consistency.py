@@ -141,9 +141,9 @@ def check_action(orbit: Orbit) -> None:
 def _digits(orbit: Orbit) -> int:
     """Return the number of digits for the central differences in :func:`check_action`.
 
-    A difference exp(eps x).y - exp(-eps x).y can be as small as eps, but both terms have the size of y.
-    Therefore the result is :data:`DIGITS` plus the number of digits that the largest coordinate of y has in
-    front of the decimal point.
+    The number is :data:`DIGITS` if all coordinates of the sample point y are between -1 and 1. Larger
+    coordinates need more digits, because the rounding error of a difference exp(eps x).y - exp(-eps x).y is
+    proportional to y. For example, the number is ``DIGITS + 4`` if the largest coordinate is 1234.5.
     """
     context = orbit.domain.context
     # ``mag`` returns the binary exponent of a number, and minus infinity for the number 0.

@@ -118,7 +118,7 @@ class Evolution:
         """Return the Taylor coefficients of the degrees 0 to ``degree``, as one list for each coordinate.
 
         The coefficient of degree k is the k-th time derivative of the coordinate at the time t, multiplied by
-        ``scale``^k / k!. None in a list denotes a coefficient that is zero for all states.
+        ``scale``^k / k!. A coefficient that is zero for all states is returned as ``None``.
         """
         return self.recurrence(domain, start, t, scale).extend(degree)
 

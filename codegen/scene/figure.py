@@ -72,8 +72,8 @@ class Figure:
     """A figure: its name, its title, its caption, and the runs that it shows.
 
     ``source`` is the published figure that is reproduced, for example "Fig. 2.6 of Marthinsen's thesis".
-    Some figures compare the other runs with the run ``reference``. Other figures draw ``reference`` as a thin
-    line.
+    Some figures compare each run in ``runs`` with the run ``reference``. Other figures draw ``reference`` as
+    a thin line.
     """
 
     shows_lattices: ClassVar[bool] = False

@@ -87,7 +87,7 @@ class MatrixFormula(ABC):
     @property
     @abstractmethod
     def place(self) -> Place:
-        """The set that contains the values: the Lie algebra, the group, or all square matrices."""
+        """The Lie algebra, the group, or all square matrices: the set that contains the formula's values."""
 
     @abstractmethod
     def value(self, at: Evaluation[S]) -> Vector[S]:
