@@ -148,10 +148,11 @@ class Batch:
 
 
 def batch_of(state: State, size: int, fields: Fields = ()) -> Batch | None:
-    """Return the batch in ``state``: an array with a state in each row, or a tuple of such arrays.
+    """Return the states in ``state`` as a :class:`Batch`, or None if ``state`` is not a batch.
 
-    Each state of a batch has ``size`` numbers. If ``state`` is not a batch, None is returned. If the arrays
-    of a tuple do not match ``fields``, ValueError is raised.
+    A batch is an array that contains one state of ``size`` numbers in each row. If a state has several parts,
+    for example q and mu, a batch can also be a tuple with one array for each part. Then row k of each array
+    belongs to state k. If the arrays of a tuple do not match ``fields``, ValueError is raised.
 
     >>> batch_of([[1, 0, 0], [0, 1, 0]], 3).states
     ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0])

@@ -125,7 +125,10 @@ class Orbit:
         return points
 
     def _at(self, y: tuple[Sized, ...], share: Fraction, constants: dict[str, Sized]) -> dict[str, Sized]:
-        """Return the values of all symbols at the state y, after this share of the time span."""
+        """Return the values of all symbols: coordinates ``y``, parameters ``constants``, and the time.
+
+        The time is first + ``share`` * (last - first), where (first, last) is the time span of the scene.
+        """
         first, last = self.span
         t = self.domain.rational(*(first + (last - first) * share).as_integer_ratio())
         return {**dict(zip(self.symbols, y, strict=True)), **constants, TIME: t}

@@ -72,8 +72,8 @@ class _Check:
         self.symbols = (*orbit.symbols, TIME)
 
     def run(self, root: Expr) -> None:
-        # The argument of abs(choose(y, 1, -1)) has the derivative zero. But choose(y, 1, -1) is in the list,
-        # too, so jumps at y = 0 are found.
+        # For abs(choose(y, 1, -1)), the call of abs is omitted here, because choose(y, 1, -1) has the
+        # derivative zero. The call choose(y, 1, -1) is not omitted, so ``root`` is tested for jumps at y = 0.
         changing = [n for n in selections([root]) if not self.constant(n.args[0], self.velocity)]
         if not changing:
             return
@@ -104,8 +104,9 @@ class _Check:
         """A combination contains one case of each operation in ``nodes``. Yield all possible combinations.
 
         For example, abs(x), abs(-x) and choose(x, a, b) have only two combinations of cases: (x, x, a) for
-        x > 0, and (-x, -x, b) for x <= 0. Two tables with the same argument and the same knots always use
-        the polynomials of the same interval.
+        x > 0, and (-x, -x, b) for x <= 0. A piecewise polynomial has one case for each interval. For two
+        piecewise polynomials with the same argument and the same intervals, a combination contains the two
+        cases of one interval.
         """
         keys = [_key(node) for node in nodes]
         counts: dict[object, int] = {
@@ -129,7 +130,8 @@ class _Check:
             if not all(_joined(table, k) for k in range(len(table.knots))):
                 raise self.error("contains a table with jumps")
             return
-        # ``run`` calls this method only if ``x`` changes along solutions, so a formula is not constant.
+        # A constant never changes its sign, so constants are omitted. At least one formula is not constant,
+        # because ``run`` calls this method only if ``x`` changes along solutions.
         formulas = [f for f in _formulas(x) if f.op != "const"]
         compared = False
         usual = [v[0] for point in self.orbit.points if (v := self.orbit.values((root,), point)) is not None]
@@ -137,9 +139,10 @@ class _Check:
             sides = self.beside(formula, point)
             values = [self.orbit.values((root, x), place) for place in sides]
             pairs = [v for v in values if v is not None]
-            # Between the two points, ``formula`` changes its sign, but ``x`` may keep its sign. For example,
-            # x = choose(y, f, g) equals g for y <= 0, even if f changes its sign. If ``x`` keeps its sign,
-            # ``node`` does not switch between the points, so ``root`` is not compared at the points.
+            # ``node`` switches where its argument ``x`` changes its sign. ``formula`` has different signs at
+            # the two points in ``sides``, but ``x`` may have the same sign. For example, x = choose(y, f, g)
+            # equals g for y <= 0, even where f changes its sign. If ``x`` has the same sign at the two
+            # points, the points are skipped.
             if len(pairs) < 2 or (formula is not x and (pairs[0][1].value > 0) == (pairs[1][1].value > 0)):
                 continue
             compared = True
@@ -190,8 +193,8 @@ def _formulas(x: Expr) -> list[Expr]:
     """
     if x.op != "call" or x.payload not in SELECTING:
         return [x]
-    # For choose(a, b, c), ``args[1:]`` is (b, c). For fabs(c), ``args`` is (c,). The formula -c of fabs(c) is
-    # omitted, because c and -c have the same zeros.
+    # For choose(a, b, c), ``args[1:]`` is (b, c). For fabs(c), ``args[1:]`` is empty, so ``args`` = (c,) is
+    # used. The value of fabs(c) is c or -c, but c is sufficient, because c and -c have the same zeros.
     return [f for arg in (x.args[1:] or x.args) for f in _formulas(arg)]
 
 

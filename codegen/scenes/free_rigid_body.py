@@ -3,7 +3,7 @@
 The equation is m' = f(m) x m with f = -I^-1 m and the inertia I (H. Marthinsen's thesis, section 2.2,
 equation (2.8)). The scene adds the term alpha m to f, where the parameter alpha is the isotropy. This term
 changes only the numerical solutions, because m x m = 0. The Lie-Euler step is m -> exp(h (f + alpha m)) m.
-Equation (2.19) of the thesis omits h.
+The thesis states this step in equation (2.19), but without the factor h.
 """
 
 from sympy import Matrix, Rational, cos, diag, sin

@@ -6,7 +6,9 @@ is the sum of three terms: the exchange field, the anisotropy field and an exter
 is J times the sum of the four neighbouring spins. The lattice is periodic.
 
 As in J. Frank, W. Huang and B. Leimkuhler (J. Comput. Phys. 133 (1997) 160-172), the energy is split into the
-energies of pairs of neighbours and the energies of single spins. The exact flow of each part is a rotation.
+energies of pairs of neighbours and the energies of single spins. The exact flow of the energy of a pair turns
+the two spins about their sum. The exact flow of the energy of a single spin turns the spin about the third
+axis.
 """
 
 from sympy import Matrix, Rational, symbols, zeros

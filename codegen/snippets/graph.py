@@ -81,10 +81,10 @@ def snippets(precision: Precision = DOUBLE, batch: bool = False) -> tuple[Snippe
 
 
 def _without_exceptions(name: str) -> Snippet:
-    """Return the helper ``ieee_NAME`` of Python modules.
+    """Return the helper ``ieee_NAME``, where NAME is ``name``.
 
-    The helper computes the function ``name`` of the module :mod:`math`. Where this function raises an
-    exception, the helper returns an infinity or a NaN, as C does.
+    The helper is a function in emitted Python code. Like ``math.NAME``, the helper computes the function
+    ``name``. Where ``math.NAME`` raises an exception, the helper returns an infinity or a NaN, as C does.
     """
     overflows = name in OVERFLOWING and name != "log"
     return Snippet(f"ieee_{name}", "ieee", (name,), {"name": name, "overflows": overflows})

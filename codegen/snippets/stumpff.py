@@ -25,10 +25,11 @@ SWITCH = (1, 1, 1, 4)
 ROUNDINGS = (3, 3, 5, 4)
 """The error of c_k(z) is at most max |c_k(z +- u) - c_k(z)| + ROUNDINGS[k] r |c_k(z)|.
 
-Here r is the unit roundoff, and u is 3/2 units in the last place of z: the rounding error of sqrt z has the
-same effect as an error of at most sqrt(2) units in z. The second term bounds the other rounding errors to
-first order in r, if the errors of sine and cosine are at most r. For example, c_1(z/4) has two such errors,
-from a sine and a division. The square doubles them and adds one, so ROUNDINGS[2] is 5.
+Here r is the unit roundoff, and u is 3/2 units in the last place of z. The first term bounds the effect of
+the rounding error of sqrt z. This error has the same effect as a change of z by at most sqrt(2) < 3/2 units
+in the last place. The second term bounds the other rounding errors to first order in r, if the errors of sine
+and cosine are at most r. For example, c_1(z/4) has two such errors, from a sine and a division. The square
+doubles them and adds one, so ROUNDINGS[2] is 5.
 """
 
 SMALL, TINY = Fraction(1, 16), Fraction(1, 256)

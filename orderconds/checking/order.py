@@ -137,9 +137,9 @@ def family_order(
       ``family``, so the order in ``family`` is at most ``bound.order``.
     - ``proved``: maps the labels of other families to proved orders. Conditions that follow from the proved
       orders are not evaluated (:mod:`orderconds.families.reductions`).
-    - ``brief``: if true, no order above ``bound.order`` is checked. If the order in
-      ``family`` is ``bound.order``, the failing conditions of the result are copied from ``bound``, because
-      the conditions of the other family are also conditions of ``family``.
+    - ``brief``: matters only if the order in ``family`` is ``bound.order``. If ``brief`` is true or
+      ``bound.order >= family.search_limit``, the failing conditions in the result are copied from ``bound``.
+      Otherwise the conditions of order ``bound.order + 1`` are evaluated to find the failing conditions.
     - ``meter``: counts the evaluated conditions. The search ends if a limit on the work is reached.
 
     >>> from orderconds.families import get

@@ -242,8 +242,9 @@ def _bounding(tableau: Tableau, labels: Collection[str]) -> list[Reading]:
 
     For example, the order in ``rk`` is an upper bound of the order in ``cg``.
 
-    Each tuple contains a form of the tableau, the family, which accepts this form, and the claimed order in
-    the family. Families with a label in ``labels`` are omitted.
+    The first entry of each tuple is ``tableau``, or ``tableau`` as a composition. The second entry is a
+    family that accepts the first entry. The third entry is the claimed order in this family. Families with a
+    label in ``labels`` are omitted.
     """
     from orderconds.checking.claimable import claimable_families
     from orderconds.tableau.recognise import as_composition
@@ -280,8 +281,9 @@ def _beyond(
 def _bound(family: Family, computed: Sequence[FamilyOrder]) -> FamilyOrder | None:
     """Return the entry of ``computed`` that gives the smallest upper bound of the order in ``family``.
 
-    Each entry contains the order of the tableau in one family G. If order n in ``family`` implies order n in
-    G, the order in ``family`` is at most the order in G. If no entry gives a bound, return None.
+    Each entry contains the order of the tableau in one family. For example, the order in ``rk`` is an upper
+    bound of the order in ``cg``, because order n in ``cg`` implies order n in ``rk``. If no entry gives a
+    bound, return None.
     """
     if not computed:
         return None

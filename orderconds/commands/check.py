@@ -78,8 +78,8 @@ WIDTH = 200
     "--require-claims",
     is_flag=True,
     help="Exit with status 1 if at least one tableau contains no claim for the checked families. Exit with "
-    "status 2 if a file in a DIR seems to be an incomplete tableau. For example, a JSON file seems to be "
-    "incomplete if it contains a matrix, but no key of a tableau, such as A, b or family.",
+    "status 2 if a file in a DIR seems to be an incomplete tableau. For example, a JSON file with a "
+    "matrix seems to be incomplete if the file contains none of the keys of tableaux (A, b, family, ...).",
 )
 @click.option(
     "--skip-others",

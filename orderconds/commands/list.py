@@ -1,8 +1,8 @@
 """``orderconds list``: list families, tableaux, and objects of other packages.
 
-To list its own objects here, another package registers a function as an entry point in the group
-``orderconds.listings``. The function has no arguments and returns one dictionary for each object, with the
-keys "name" and "about" (one line).
+Another package can add objects to the printed lists. For this purpose, the package registers a function as
+an entry point in the group ``orderconds.listings``. The function has no arguments and returns one dictionary
+for each object, with the keys "name" and "about" (one line).
 """
 
 from __future__ import annotations

@@ -194,7 +194,8 @@ def _follow(statement: ast.stmt, values: Values) -> None:
 
 
 def _assign(assigned: Sequence[tuple[str, ast.expr]], values: Values) -> None:
-    # After ``A = B = [0]``, A and B are the same list, so the right-hand side is evaluated only once.
+    # As in Python, the right-hand side of ``A = B = [0]`` is evaluated only once. Otherwise A and B would be
+    # two lists, and a change of A would not change B.
     evaluated = {id(expression): values.value(expression) for _, expression in assigned}
     for _, expression in assigned:
         if _may_change(expression, values):

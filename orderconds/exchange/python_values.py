@@ -1,4 +1,4 @@
-"""Evaluate expressions in Python source. A value is a coefficient, an array or a text."""
+"""Evaluate the expressions of a parsed Python file. A value is a coefficient, an array or a text."""
 
 from __future__ import annotations
 
@@ -371,7 +371,11 @@ def _copy(value: Value, integral: bool) -> Value:
 
 
 def _twin(value: Array, integral: bool) -> Array:
-    """Return a new Array with the same ``memory``: a change of one array may change the other."""
+    """Return the array that ``asarray`` makes from ``value``.
+
+    The result has the attribute ``memory`` of ``value``, because ``asarray`` may return its argument without
+    a copy.
+    """
     items = [_twin(x, integral) if isinstance(x, Array) else x for x in value.items]
     return Array(items, integral, value.memory)
 

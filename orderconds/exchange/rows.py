@@ -39,7 +39,7 @@ def read(text: str, names: tuple[str, ...]) -> Rows:
       tableau.
     - There are at least two cells. Each non-empty cell begins with a letter and contains only letters,
       digits, blanks and ``_()./^-``, for example ``time (s)``. The first cell is not in ``names``, the list
-      of array names. This is the header of another table.
+      of array names. This is the header of a table that is not a tableau.
 
     Raises :class:`csv.Error` for misplaced or unmatched quotation marks.
 

@@ -108,9 +108,9 @@ class ActionFamily(Family):
         """Return True if the polynomials ``relations(order)`` pass a test in rational arithmetic.
 
         Each polynomial P gives an equation L = P(L_1, ..., L_k). Here L is the left-hand side of a dependent
-        condition, and L_1, ..., L_k are the left-hand sides of independent conditions. The test compares L
-        with P(L_1, ..., L_k) twice: for the exact flow, and for one method with random rational coefficients.
-        The test passes if L and P(L_1, ..., L_k) are always equal.
+        condition, and L_1, ..., L_k are the left-hand sides of independent conditions. The equation must
+        hold for one method with random rational coefficients. The equation must also hold if each left-hand
+        side is replaced by the right-hand side of its condition.
         """
         from orderconds.series.action_relations import hold_over_rationals, relations
 

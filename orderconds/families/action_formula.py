@@ -49,9 +49,10 @@ tree."""
 def multiplier(tree: Velocity) -> int:
     """Return the factor by which both sides of the condition of a tree are multiplied.
 
-    In a product of exponentials, the coefficient of a word of k equal letters has the denominator k!. In
-    the tree, each node of type :class:`Velocity` has a word. A word of k equal letters gives the factor k!,
-    and all other words give the factor 1. The result is the product of these factors.
+    Each node of type :class:`Velocity` has a word: the tuple of trees ``node.word``. If a word consists of k
+    equal trees, the coefficient of the word has the denominator k!, and the node gives the factor k!. If the
+    trees are not all equal, the coefficient is a sum whose terms have different denominators, and the node
+    gives the factor 1. The result is the product of the factors of all nodes.
 
     >>> from orderconds.series.action_trees import velocity
     >>> multiplier(velocity((velocity(), velocity())))
@@ -71,8 +72,9 @@ def _momentum_multiplier(tree: Momentum) -> int:
 class ActionFormula(ABC):
     """The base class of objects that write the conditions of action trees as sums over indices.
 
-    Both sides of each condition are multiplied by an integer that removes denominators (:func:`multiplier`).
-    For example, the condition ``sum_i b_i c_i^2/2 = 1/6`` becomes ``sum_i b_i c_i^2 = 1/3``.
+    Both sides of each condition are multiplied by an integer (:func:`multiplier`), which removes factors such
+    as 1/2 from the left-hand side. For example, ``1/2 sum_i b_i c_i^2 = 1/6`` becomes
+    ``sum_i b_i c_i^2 = 1/3``.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import force, velocity
@@ -223,11 +225,10 @@ class CrouchGrossmanFormula(ExponentialsFormula):
         return fresh("i")
 
     def exponent(self, row: str | None, place: str, tree: Velocity) -> Formula:
-        """Return the coefficient of ``tree`` in the exponent with the index ``place``. The exponent belongs
-        to stage ``row``, or to the update if ``row`` is None.
+        """Return ``a_ij tau_t(j)``: the coefficient of the tree t in exponent j of stage i.
 
-        The coefficient is ``a_ij tau_t(j)`` in stage i, and ``b_j tau_t(j)`` in the update. Here j is
-        ``place``, and ``tau_t(j)`` is the result of :meth:`tau` for ``tree`` and stage j.
+        Here i = ``row``, j = ``place`` and t = ``tree``. If ``row`` is None, the exponent belongs to the
+        update, and the result is ``b_j tau_t(j)``. The method :meth:`tau` returns ``tau_t(j)``.
         """
         return product(_runge_kutta(row, place), self.tau(tree, place))
 
@@ -375,7 +376,7 @@ class MuntheKaasFormula(ActionFormula):
     def _terms(self, letters: int) -> Terms:
         """Return the terms ``q X^n xi X^m`` of the truncated series dexpinv_X xi, as triples (q, m, n).
 
-        The second entry m is the power of the right factor, which acts first. The sum m + n is at most
+        In a triple, m precedes n, because the right factor X^m acts first. The sum m + n is at most
         ``letters``.
         """
         return dexpinv_terms(letters if self._cutoff is None else min(letters, self._cutoff))
