@@ -45,7 +45,7 @@ def lazy(package: str, **names: tuple[str, ...]) -> None:
     homes = {n: f"{package}.{home}" for home, own in names.items() for n in own}
     module.__dict__["_homes"] = homes
     for name in homes:
-        # A module that was imported earlier must not hide the exported object ``name``.
+        # An imported submodule that is also called ``name`` would hide the exported object ``name``.
         if isinstance(module.__dict__.get(name), ModuleType):
             del module.__dict__[name]
     module.__class__ = _LazyPackage

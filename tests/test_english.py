@@ -45,7 +45,7 @@ PHRASES = {
     "answered wrongly without a word": "silent wrong answers",
     "without a word": "silent",
     "say what held": "Stress-test emitted steps on stiff and extreme inputs",
-    "depend on the others at the decimals": "only M of the N conditions are independent near these decimals",
+    "depend on the others at the decimals": "only M of the N conditions are independent near the decimals",
     "owe nothing to the manifold": "do not preserve the manifold",
     "the order of things turns round": "If the fast part has an exact flow, the ranking reverses.",
     "how the first of some steps begins": "Apply the first flow of a step, unless ...",

@@ -32,8 +32,8 @@ class AmbientFamily(RungeKuttaFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None: a tableau file claims no order in this family, because it is always equal to the order
-        in the family ``rk``."""
+        """Return None. The order in the family ``ambient`` is always equal to the order in the family ``rk``,
+        so a tableau file claims only the order in ``rk``."""
         return None
 
     def implied_order(self, orders: Mapping[str, int]) -> int:

@@ -353,8 +353,9 @@ class Family(ABC):
     def first_unmet(self, order: int) -> OrderCondition | None:
         """Return one condition of order ``order``, or None. The base class returns None.
 
-        Let p be the highest order of a method of this family. If ``order`` is p + 1, no method satisfies both
-        the returned condition and all other conditions of orders 1, ..., p + 1.
+        In some families, no method has an order above a number p, because one condition of order p + 1
+        contradicts the other conditions of orders 1, ..., p + 1. For ``order`` = p + 1, these families return
+        the contradicting condition.
         """
         return None
 

@@ -1,8 +1,8 @@
 """Fer methods for Y' = A(t) Y. A step is exp(F_1) exp(F_2). A method computes exp(F_2) as one exponential or
 as a product of several exponentials.
 
-Let A_i = h A(c_i h), where c_i are the nodes. Then F_1 = sum_i b_i A_i, and
-F_2 = sum_{ij} phi_ij A_j A_i + ....
+Let A_i = h A(c_i h), where c_i are the nodes. Then F_1 = sum_i b_i A_i. The terms of F_2 are commutators.
+If the commutators in F_2 are expanded, phi_ij is the coefficient of A_j A_i. In this product, A_i acts first.
 
 There is one condition for each Lyndon word. The letter k denotes X_k in A(t) = X_1 + t X_2 + .... Let F be
 the integral of A over one step, and let Y be the exact flow. For words with one letter, the conditions

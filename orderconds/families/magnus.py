@@ -94,7 +94,8 @@ class MagnusFamily(WordFamily):
         return cls() if isinstance(method, Magnus) and method.transform == cls.transform else None
 
     def work(self, tableau: Tableau) -> Work | None:
-        """Return the numbers of nodes, commutators and different exponents of a Magnus method. If ``tableau``
+        """Return the cost of a step of a Magnus method: the numbers of nodes, commutators and exponentials
+        (or Cayley transforms). Equal commutators and equal exponentials are counted once. If ``tableau``
         contains no Magnus method, return None."""
         return magnus_work(tableau)
 
@@ -107,7 +108,8 @@ class MagnusFamily(WordFamily):
         return expansions.magnus(word)
 
     def formula(self, word: Word) -> Formula:
-        """Return the left-hand side of the condition of a word as a sum over nodes (:func:`node_sum`)."""
+        """Return the left-hand side of the condition of a word, for example sum_{i,j} omega_ij c_j for the
+        word 1 2. The numbers c_j are the quadrature nodes."""
         return node_sum("omega", word)
 
     def polynomial(self, word: Word) -> Polynomial:

@@ -39,7 +39,7 @@ class MinimalBrackets(MuntheKaasFamily):
     def series(self, method: Method, ring: Ring) -> ForestSeries:
         """Return the Lie-Butcher series of one step of :attr:`program`. The argument ``method`` is not
         used."""
-        # The ring ``Enclosures`` needs the ball x.value instead of the coefficient x.
+        # The program contains ``Ball`` objects, but ``Enclosures`` requires the attribute ``value`` of each.
         inner = self.converted(attrgetter("value")) if isinstance(ring, Enclosures) else self
         return BracketedSeries(ring, inner.program)
 

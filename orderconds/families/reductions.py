@@ -60,8 +60,8 @@ class UnseenCut(Struct, frozen=True):
 class Reductions(Struct, frozen=True):
     """The reductions that apply to one method in one family F.
 
-    ``even`` is true if the method is symmetric. ``substitute`` is None or a :class:`Substitute`. For the
-    method, the conditions of ``substitute.family`` imply the conditions of F. ``cut`` is None or an
+    ``even`` is true if the method is symmetric. ``substitute`` is None, or a :class:`Substitute` with
+    another family, whose conditions imply the conditions of F for this method. ``cut`` is None or an
     :class:`UnseenCut`.
 
     >>> from orderconds.ring import QQ

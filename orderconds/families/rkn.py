@@ -70,7 +70,7 @@ class NystroemFamily(Family):
     unknowns = "splitting"
 
     def require(self, method: Method, ring: Ring) -> None:
-        """Raise :class:`~orderconds.errors.InputError` if the tableau file of the splitting has no key
+        """Raise :class:`~orderconds.errors.InputError` if the tableau file of ``method`` has no key
         ``rkn``."""
         if expect(method, Splitting).rkn is None:
             raise InputError(
@@ -203,10 +203,10 @@ def functionals(order: int) -> tuple[Functional, ...]:
     """Return one functional for each condition of order ``order`` of Runge-Kutta-Nystroem splittings.
 
     A functional is a linear combination of words over T and V. If x and y are functions of q alone, the
-    bracket [x,y] is zero. For example, [V,[V,[T,V]]] is zero, because V and [V,[T,V]] are functions of q
-    alone. These brackets [x,y] generate an ideal of the free algebra over T and V (see the module docstring).
-    The returned functionals are a basis of the vector space
-    of all functionals on words of length ``order`` that are zero on this ideal.
+    bracket [x,y] is zero. The brackets [x,y] of all functions x and y of q alone generate an ideal of the
+    free algebra over T and V (see the module docstring). For example, [V,[V,[T,V]]] is in the ideal, because
+    V and [V,[T,V]] are functions of q alone. The returned functionals are a basis of the vector space of all
+    functionals on words of length ``order`` that are zero on the ideal.
 
     >>> [len(functionals(n)) for n in (1, 2, 3, 4)]
     [2, 4, 8, 15]

@@ -190,9 +190,9 @@ def splitting_formula(word: Word) -> Formula:
         indices = [fresh() for _ in blocks]
         relations = []
         for (i, (one, _)), (j, (two, _)) in pairwise(zip(indices, blocks, strict=True)):
-            # Two consecutive blocks are compared. The first block repeats the letter ``one`` in stage i. The
-            # second block repeats the letter ``two`` in stage j. The case i = j requires ``one`` < ``two``,
-            # because the letters of a stage act in alphabetical order.
+            # A block consists of equal letters that act in one stage. The first block has the letter ``one``
+            # and acts in stage i. The second block has the letter ``two`` and acts in stage j. The case i = j
+            # requires ``one`` < ``two``, because the letters of a stage act in alphabetical order.
             relations.append((i, "<=" if one < two else "<", j))
         factors = [
             coefficient("abcdef"[letter], i)

@@ -223,7 +223,8 @@ class _Sampling:
     def values(self, count: int, root: int | None) -> dict[OrderCondition, _Value]:
         """Return both sides of each condition modulo ``prime``. The left-hand side has one value for each of
         ``count`` random methods. The right-hand side is one number. If ``root`` is None, random residues
-        replace all radicals in the formulas. Otherwise, ``root`` replaces every square root."""
+        replace all radicals in the formulas. Otherwise, the formulas contain only one radical, a square root,
+        and ``root`` replaces this square root."""
         generator = Random(self.draws.number(f"members modulo {self.prime}", 256))
         ring = _Members(self.prime, count, generator, root)
         known = {u.constant: ring.random(generator) for u in self.symbolic.decimals()}

@@ -63,13 +63,13 @@ class Equations:
     letters: int | None = None
     """If the value is an integer s, only conditions for words in the letters 1, ..., s are used."""
     kept: tuple[OrderCondition, ...] | None = None
-    """The conditions of the main method that become equations. If the value is None, ``proof.reduction`` and
-    ``letters`` determine the equations. If there is no reduction either, the conditions that
-    ``family.conditions(n)`` returns for n = 1, ..., ``proof.order`` become equations. Some of them may be
-    dependent."""
+    """The conditions of the main method that become equations. If the value is None, there are two cases.
+    With a reduction, ``proof.reduction`` and ``letters`` determine the equations. Without a reduction, the
+    equations are the conditions in ``family.conditions(n)`` for n = 1, ..., ``proof.order``. Some of these
+    conditions may be dependent."""
     lower: tuple[OrderCondition, ...] = ()
     """The conditions of the embedded method of a low-storage (2N) scheme. In the list of equations, these
-    conditions follow the conditions of the scheme."""
+    conditions are placed after the conditions of the scheme."""
     lower_facts: tuple[tuple[str, int], ...] = ()
     """The orders of the embedded method, as pairs (family, order). The conditions in ``lower`` imply these
     orders."""
@@ -229,10 +229,11 @@ def _independent(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]:
 
 
 def _letters(tableau: Tableau, proof: Proof) -> int | None:
-    """Return s if the conditions for words in the letters 1, ..., s are sufficient, else None.
+    """Return the number s of nodes of a Magnus method if the nodes are proved to be the Gauss nodes and the
+    order in ``proof`` is at most 2s. Otherwise, return None.
 
-    The conditions are sufficient for a Magnus method if its s nodes are proved to be the Gauss nodes and the
-    order in ``proof`` is at most 2s.
+    If the result is s, the conditions for words in the letters 1, ..., s imply the conditions for all other
+    words up to the order in ``proof``.
     """
     method = tableau.method
     if not isinstance(method, Magnus) or proof.order > 2 * method.s:

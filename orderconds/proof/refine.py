@@ -50,8 +50,8 @@ def refine(text: str, where: str = "<text>", digits: int = 60) -> Refined:
     The list ``pins`` of the resulting file contains the names of these unknowns. The table
     ``[proof.printed]`` contains the original digits of the other unknowns.
 
-    Raises :class:`~orderconds.proof.krawczyk.NotProved` if Newton's method finds no solution near the
-    decimals.
+    Raises :class:`~orderconds.proof.krawczyk.NotProved` if Newton's method finds no solution near the digits
+    in ``text``.
 
     >>> from orderconds.tableau import find
     >>> from orderconds.tableau.file import text_of
@@ -104,7 +104,8 @@ def determined(jacobian: Sequence[Sequence[arb]]) -> list[int]:
         if size < 1e-8:
             raise NotProved(
                 f"only {len(jacobian) - len(rows)} of the {len(jacobian)} conditions are independent near "
-                'these decimals; write the coefficients in closed form, such as "1/4 - sqrt(3)/6"'
+                "the decimals in the file, so Newton's method cannot be used; to check the file exactly, "
+                'write the coefficients in closed form, such as "1/4 - sqrt(3)/6"'
             )
         pivot = rows.pop(i)
         chosen.append(j)

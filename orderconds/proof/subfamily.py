@@ -1,10 +1,11 @@
 """The independent conditions of a sub-family of methods.
 
-Formulas such as ``b3 = "1 - b1 - b2"`` in a tableau file restrict a family to a sub-family. In the
-sub-family, the left-hand side of a dependent condition is a polynomial in the left-hand sides of independent
-conditions. The right-hand sides of these conditions satisfy the same relation.
+Formulas such as ``b3 = "1 - b1 - b2"`` in a tableau file restrict a family to a sub-family. Let
+l_1 = r_1, l_2 = r_2, ... be the independent conditions of the sub-family. A dependent condition has the form
+P(l_1, l_2, ...) = P(r_1, r_2, ...) with a polynomial P, and therefore follows from the independent
+conditions.
 
-The polynomials are computed modulo primes (:mod:`orderconds.proof.dependence`). Each polynomial is verified
+The polynomials P are computed modulo primes (:mod:`orderconds.proof.dependence`). Each polynomial is verified
 in exact arithmetic for one random method (:mod:`orderconds.proof.exact_member`). A wrong polynomial passes
 this verification only with negligible probability.
 """

@@ -14,9 +14,8 @@ from flint import fmpz
 
 
 class Draws:
-    """A generator of pseudorandom numbers. The arguments of the constructor are texts, for example a
-    description of the coefficients that are tested with the pseudorandom numbers. Each pseudorandom number is
-    computed from the texts, a name and a number of bits.
+    """A generator of pseudorandom numbers. The texts that are passed to the constructor are the seed. Each
+    pseudorandom number is computed from the seed, a name and a number of bits.
 
     >>> draws = Draws("one file")
     >>> draws.number("x", 64) == Draws("one file").number("x", 64) != Draws("another").number("x", 64)

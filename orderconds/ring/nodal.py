@@ -120,15 +120,15 @@ class NodalAlgebra:
 
 def nodal_algebra(ring: Ring, matrices: Sequence[Matrix], b: Sequence[Element]) -> NodalAlgebra | None:
     """Return the :class:`NodalAlgebra` of a method. The nodes are c_i = sum_j a_ij, where the a_ij are the
-    entries of the first matrix.
+    entries of the first matrix. The vector c^k has the entries c_i^k.
 
     The result is None in each of the following cases:
 
     - ``ring`` is not a :class:`NumberField`, or its degree is 1.
     - Two nodes are equal.
     - The polynomial M with the roots c_i has an irrational coefficient.
-    - Let c^k be the vector with the entries c_1^k, ..., c_s^k. For some k and some A in ``matrices``, the
-      polynomial that interpolates the entries of A c^k at the nodes has an irrational coefficient.
+    - The polynomial that interpolates the points (c_i, v_i) has an irrational coefficient, where v = A c^k
+      for some k and some matrix A in ``matrices``.
     - For some k, the number sum_i b_i c_i^k is irrational.
 
     >>> from orderconds.tableau import Tableau, find
