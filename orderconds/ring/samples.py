@@ -84,7 +84,8 @@ class Samples:
 
 
 class Sample:
-    """A vector of residues (samples) with componentwise arithmetic."""
+    """An element of the ring :class:`Samples`: a vector of residues modulo ``ring.prime``, with componentwise
+    arithmetic."""
 
     __slots__ = ("polynomial", "ring")
 

@@ -78,9 +78,9 @@ class ActionSeries(ABC):
     @abstractmethod
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
         """The letters of words are trees. The velocity xi of stage ``stage`` is a linear combination of
-        letters. Replace xi by xi + x, where x is an additional letter. Then expand the group element of stage
-        ``row``, or of the update if ``row`` is the number of stages. Return the coefficient of the word that
-        consists of the letters ``before``, the letter x, and the letters ``after``."""
+        letters. Replace xi by xi + x, where x is an additional letter. Then expand the group element with
+        index ``row`` (0, ..., s - 1 for the s stages, and s for the update). Return the coefficient of the
+        word that consists of the letters ``before``, the letter x, and the letters ``after``."""
 
     def stage_coefficients(self, word: Word) -> Stages:
         """Return the coefficient of ``word`` in the group element of each stage."""
@@ -165,15 +165,14 @@ class ActionSeries(ABC):
 
     def update_words(self, vertices: int) -> dict[Word, Element]:
         """Let q0 be the position before the step, q1 the position after the step, and mu1 the momentum after
-        the step. For each smooth function f on the group, f(q1) is the sum of
-        ``coefficient(w) (F(t_1) ... F(t_k) f)(q0)`` over all words ``w = t_1 ... t_k`` of trees. Return a map
-        from w to ``coefficient(w)``. The map contains all words with at most ``vertices`` vertices in total.
-
-        ``F(t)`` is a right-invariant vector field on the group, which is defined as follows. Each tree t
-        denotes a function of position and momentum with values in g
+        the step. Each tree t denotes a function of position and momentum with values in g
         (:mod:`orderconds.series.action_trees`). Insert the position q0 and the momentum mu1 into this
         function, and divide the value by the order of the symmetry group of t. The result is a vector in g.
-        This vector defines ``F(t)``.
+        This vector defines a right-invariant vector field ``F(t)`` on the group.
+
+        For each smooth function f on the group, f(q1) is the sum of
+        ``coefficient(w) (F(t_1) ... F(t_k) f)(q0)`` over all words ``w = t_1 ... t_k`` of trees. Return a map
+        from w to ``coefficient(w)``. The map contains all words with at most ``vertices`` vertices in total.
         """
         return {word: self.coefficient(self.stages, word) for n in range(vertices + 1) for word in words(n)}
 
@@ -214,9 +213,10 @@ class CommutatorFreeSeries(ActionSeries):
         return self._before(row, word)[-1]
 
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
-        """Replace the velocity xi of stage ``stage`` by xi + x, where x is an additional letter. Then expand
-        the group element with index ``row`` in words, and return the coefficient of the word
-        (``before``, x, ``after``). See also :meth:`ActionSeries.insertion`."""
+        """Replace the velocity xi of stage ``stage`` by xi + x, where x is an additional letter. Then the
+        series of the group element with index ``row`` contains words with the letter x. Return the
+        coefficient of the word that consists of the letters ``before``, the letter x, and the letters
+        ``after``. See also :meth:`ActionSeries.insertion`."""
         total = self.ring.zero
         for place, exponential in enumerate(self.rows[row]):
             for varied, value in exponential:
@@ -229,10 +229,11 @@ class CommutatorFreeSeries(ActionSeries):
         letter. Return the coefficient of the word (``before``, x, ``after``) in the product of the
         exponentials of ``self.rows[row]``.
 
-        The terms of exp(Z + x) with one factor x are Z^j x Z^k / (j + k + 1)!. The last j letters of
-        ``before`` belong to Z^j, and the other letters of ``before`` to the exponentials before ``place``.
-        The first k letters of ``after`` belong to Z^k, and the other letters of ``after`` to the exponentials
-        after ``place``. The coefficient is a sum over all j and k.
+        The coefficient is a sum over all j and k. For each summand, split ``before`` into a word u and its
+        last j letters, and split ``after`` into its first k letters and a word v. The word u comes from the
+        exponentials with indices less than ``place``. The j letters, x and the k letters come from the term
+        Z^j x Z^k / (j + k + 1)! of exp(Z + x). The word v comes from the exponentials with indices greater
+        than ``place``.
         """
         exponential, length = self.rows[row][place], len(before)
         left, run = [], self.ring.one

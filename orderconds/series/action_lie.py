@@ -73,9 +73,9 @@ class MuntheKaasActionSeries(ActionSeries):
 
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
         """The letters of words are trees. The velocity xi of stage ``stage`` is a linear combination of
-        letters. Replace xi by xi + x, where x is an additional letter. Then expand the group element of stage
-        ``row``, or of the update if ``row`` is the number of stages. Return the coefficient of the word that
-        consists of the letters ``before``, the letter x, and the letters ``after``."""
+        letters. Replace xi by xi + x, where x is an additional letter. Then expand the group element with
+        index ``row`` (0, ..., s - 1 for the s stages, and s for the update). Return the coefficient of the
+        word that consists of the letters ``before``, the letter x, and the letters ``after``."""
         update, place = (1, 0) if row == self.stages else (0, row)
         return self._varied_exponential(update, before, after)[place].get(stage, self.ring.zero)
 
@@ -195,13 +195,10 @@ class MuntheKaasActionSeries(ActionSeries):
             _add(total, [(i, x * scale) for i, x in row.items()])
 
     def _around(self, before: Word, behind: Word) -> Stages | None:
-        """Return, for each stage j, the coefficient of one word in the series for dexpinv_{X_j} z. Here
-        exp(X_j) is the group element of stage j, and z is a letter that does not occur in X_j. The method
-        :meth:`_terms` defines the series.
-
-        Each word of the series contains the letter z exactly once. The selected word consists of the letters
-        ``before``, the letter z, and the letters ``behind``. Return None if no term of the series can contain
-        this word."""
+        """Let exp(X_j) be the group element of stage j, and let z be a letter that does not occur in X_j.
+        Consider the word that consists of the letters ``before``, the letter z, and the letters ``behind``.
+        Return a list with one entry for each stage j: the coefficient of this word in the series for
+        dexpinv_{X_j} z (:meth:`_terms`). Return None if no term of the series can contain this word."""
         values = None
         for q, m, n in self._present(len(before), len(behind)):
             if m and n:
@@ -220,9 +217,11 @@ class MuntheKaasActionSeries(ActionSeries):
         coefficient w_ij. The coefficient is defined in three steps:
 
         1. Add a new letter x to the velocity of stage i.
-        2. With this changed velocity, compute the exponent X_j of the group element exp(X_j) of stage j.
-        3. Let z be another new letter. Then w_ij is the coefficient of the word
-           (``before``, x, ``after``, z, ``behind``) in the series dexpinv_{X_j} z (:meth:`_terms`)."""
+        2. With this changed velocity, compute the exponent of the group element of stage j. Let X_ij be the
+           result.
+        3. Apply the series dexpinv_{X_ij} (:meth:`_terms`) to another new letter z. In the result, w_ij is
+           the coefficient of the word that consists of the letters ``before``, the letter x, the letters
+           ``after``, the letter z, and the letters ``behind``."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(before) + 1 + len(after), len(behind)):
             varied = self._varied_power(0, m, before, after)
@@ -236,9 +235,11 @@ class MuntheKaasActionSeries(ActionSeries):
         coefficient w_ij. The coefficient is defined in three steps:
 
         1. Add a new letter x to the velocity of stage i.
-        2. With this changed velocity, compute the exponent X_j of the group element exp(X_j) of stage j.
-        3. Let z be another new letter. Then w_ij is the coefficient of the word
-           (``first``, z, ``before``, x, ``after``) in the series dexpinv_{X_j} z (:meth:`_terms`)."""
+        2. With this changed velocity, compute the exponent of the group element of stage j. Let X_ij be the
+           result.
+        3. Apply the series dexpinv_{X_ij} (:meth:`_terms`) to another new letter z. In the result, w_ij is
+           the coefficient of the word that consists of the letters ``first``, the letter z, the letters
+           ``before``, the letter x, and the letters ``after``."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(first), len(before) + 1 + len(after)):
             scales = [q * x for x in self._power(0, m, first)] if m else [q] * self.stages
@@ -275,8 +276,8 @@ def _add(total: Varied, terms: Iterable[tuple[int, Element]]) -> None:
 class PadeActionSeries(MuntheKaasActionSeries):
     """The action series of variational Runge-Kutta-Munthe-Kaas methods with a truncated series dexp.
 
-    Let dexp_{(r),X} be the series dexp_X, truncated after the power r = ``cutoff`` of X. The exponent of
-    stage i is X_i = h sum_j a_ij v_j. The vector v_j solves the equation dexp_{(r),X_j} v_j = xi_j, where
+    Let dexp_{(r),X} be the sum of ad_X^j / (j + 1)! over j = 0, ..., r, where r is ``cutoff``. The exponent
+    of stage i is X_i = h sum_j a_ij v_j. The vector v_j solves the equation dexp_{(r),X_j} v_j = xi_j, where
     xi_j is the velocity of stage j.
 
     >>> from orderconds.ring import QQ

@@ -107,9 +107,9 @@ class Velocity(_Node):
 
 
 class Force(_Node):
-    """The g*-valued tree f(u * v | M), where u and v are words of g-valued trees, and M is a multiset of
-    g*-valued trees. The attribute ``before`` is u, the attribute ``after`` is v, and the attribute
-    ``momenta`` is M. Use :func:`force` to create trees.
+    """The g*-valued tree f(u * v | M). Here u and v are words of g-valued trees, the symbol * separates these
+    words, and M is a multiset of g*-valued trees. The attribute ``before`` is u, the attribute ``after`` is
+    v, and the attribute ``momenta`` is M. Use :func:`force` to create trees.
 
     >>> tree = force((), (velocity(),))
     >>> tree, tree.vertices
@@ -170,8 +170,8 @@ def _inside(letters: str, momenta: Momenta) -> str:
 
 
 def mixing(word: Word) -> int:
-    """Return one summand of the cost of a tree (w, M), where w is ``word`` (:class:`Velocity`). The cost of
-    a tree measures how difficult the order condition of the tree is to read.
+    """Return one summand of the cost of a :class:`Velocity` with the word ``word``. The cost of a tree
+    measures how difficult the order condition of the tree is to read.
 
     If all letters of the word are equal, the summand is zero. Otherwise, the summand is 5 (k - 1), where k is
     the number of letters.

@@ -133,9 +133,10 @@ class Sums:
     def __init__(self, rows: Sequence[Sequence[tuple[int, Element]]], zero: Element) -> None:
         self._zero = zero
         self._steps: list[tuple[int, int, Element]] = []
-        """The product of the matrix ``rows`` and a vector x is computed from partial sums s_0 = 0, s_1, ....
-        The n-th triple (k, j, w), counted from 1, defines s_n = s_k + w x_j with k < n. Entry i of the
-        product is s_n with n = ``_ends[i]``."""
+        """Triples (k, j, w) that define partial sums of the product of the matrix ``rows`` and a vector x.
+        The first partial sum is s_0 = 0. For n = 1, 2, ..., the n-th triple defines s_n = s_k + w x_j, where
+        k < n. Entry i of the product is s_n with n = ``_ends[i]``. The example in the class docstring has
+        s_1 = a x_0, s_2 = s_1 + b x_1 and s_3 = s_2 + 5 x_2."""
         known: dict[tuple[int, int, int], int] = {}
         self._ends = []
         for row in rows:

@@ -43,9 +43,9 @@ class BracketProgram:
     - ``stages``: the rows of u_1, ..., u_s.
     - ``update``: the row of u.
     - ``least``: a lower bound for the number of brackets in every program that computes the arguments.
-    - ``grades``: integers g_1, ..., g_s. Choose the numbers x_1, ..., x_(j-1) to make the order h^g of the
-      combination h (x_1 k_1 + ... + x_(j-1) k_(j-1) + k_j) as high as possible. Then g_j = min(g, p), where
-      p is the order of the method.
+    - ``grades``: integers g_1, ..., g_s. Let p be the order of the method. Then g_j is the largest integer
+      g <= p with the following property: there are numbers x_1, ..., x_(j-1) for which the combination
+      h (x_1 k_1 + ... + x_(j-1) k_(j-1) + k_j) is O(h^g).
 
     >>> from orderconds.ring import QQ
     >>> euler = BracketProgram((), ({},), {("k", 0): QQ.one}, 0, (1,))
@@ -169,8 +169,9 @@ def _shared(algebra: GradedAlgebra, arguments: Sequence[Polynomial]) -> dict[int
     """Return polynomials that a program may compute in addition to ``arguments``, in order to save brackets.
 
     The result is a map from indices i to lists of polynomials. The list of index i should be computed just
-    before ``arguments[i]``. For each polynomial in this list, a later argument is a linear combination of the
-    polynomial, ``arguments[i]`` and stage values. Therefore, the later argument needs no new brackets."""
+    before ``arguments[i]``. Each polynomial P in this list belongs to a later argument u. This argument u is
+    a linear combination of P, ``arguments[i]``, h k_1, h k_2, ..., where h is the step size and k_1, k_2, ...
+    are the stage values. Therefore, after P and ``arguments[i]``, u needs no new brackets."""
     one, shared = algebra.ring.one, dict[int, list[Polynomial]]()
     stages = [algebra.cut(u, algebra.largest - 1) for u in arguments[:-1]]
     for i, argument in enumerate(stages):
@@ -369,8 +370,8 @@ class _Search:
 
         - the row of the element (:class:`BracketProgram`)
         - the element as a polynomial
-        - the element y in the definition of :attr:`_Shape.outer`, as a polynomial; zero if ``shape.outer`` is
-          False
+        - if ``shape.outer`` is True, the linear combination y in the bracket [q_1 + x, y + C_1]
+          (:class:`_Shape`), as a polynomial; otherwise, the zero polynomial
         """
         one, size = self.ring.one, len(self.pool)
 

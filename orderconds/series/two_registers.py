@@ -208,10 +208,11 @@ def _drift(product: Operator, ordered: bool) -> Combination:
 @lru_cache(maxsize=1 << 16)
 def _kick(product: Operator, ordered: bool) -> Combination:
     """Apply the operator K (kick) to ``product``, a product of derivatives along vector fields
-    (:data:`Operator`). K is the derivative along the vector field k' = f(y). Each None in ``product``, also
-    inside a factor, denotes the derivative along the vector field y' = k y. Each () denotes the derivative
-    along the vector field y' = f(y) y. By the product rule, the result is a sum with one term for each None:
-    ``product`` with () instead of this None. For example, (None, None) gives ((), None) + (None, ())."""
+    (:data:`Operator`). K is the derivative along the vector field k' = f(y). The factors can be nested
+    tuples. At every depth, None denotes the derivative along the vector field y' = k y, and () denotes the
+    derivative along the vector field y' = f(y) y. By the product rule, the result is a sum with one term for
+    each None: ``product`` with () instead of this None. For example, (None, (None,)) gives
+    ((), (None,)) + (None, ((),))."""
     result: Counter[Operator] = Counter()
     for place, factor in enumerate(product):
         if factor is None:

@@ -140,8 +140,8 @@ def symmetric_transport(
     Let k_j be the vector field at stage j. Row J of ``update`` contains the coefficients of k_1, ..., k_s in
     the J-th exponential of the update. Let r be s/2, rounded down. If i <= r, stage i begins with the first
     ``leave[i - 1]`` exponentials of the update. If s is odd, the middle stage i = r + 1 begins with the first
-    half of the update. The later exponentials of a stage are called own. In all exponentials of stage i, the
-    coefficients of k_j have the sum a_ij. In the own exponentials, the coefficients of k_j have the sum x_ij.
+    half of the update. The later exponentials of a stage are called own. For stage i, let a_ij be
+    the sum of all coefficients of k_j, and x_ij the sum of the coefficients of k_j in the own exponentials.
 
     - ``own`` contains the row (x_i1, ..., x_is) for i = 1, ..., r.
     - ``middle`` contains the row (x_i1, ..., x_is) for i = r + 1. If s is even, ``middle`` is empty.

@@ -81,8 +81,8 @@ class Infeasible:
             return f"{self.consequence} = 0 is false"
         if self.weight:
             return (
-                f"{self.consequence} = 0 has no real root except zero (Sturm), but "
-                f"{self.weight} must not be zero: the formulas of the family divide by {self.weight}"
+                f"the only real solution of {self.consequence} = 0 is {self.weight} = 0 (Sturm's theorem), "
+                f"but the formulas of the family divide by {self.weight}"
             )
         return f"{self.consequence} = 0 has no real root (Sturm)"
 
@@ -192,8 +192,8 @@ def _subsystems(
 def _consequence(
     nonzero: frozenset[str], variables: Sequence[int], members: Sequence[fmpq_mpoly], plain: Polynomials
 ) -> tuple[fmpq_mpoly, str] | None:
-    """Prove that the polynomials in ``members`` have no common real zero at which all weights in ``nonzero``
-    are different from zero. Return None if no proof is found.
+    """Consider the equations p = 0 for all polynomials p in ``members``. Assume that the weights in
+    ``nonzero`` are nonzero. Prove that the equations have no real solution. Return None if no proof is found.
 
     The proof is a pair (polynomial, text). The polynomial lies in the ideal of ``members`` and has at most
     one variable. There are two kinds of proofs:

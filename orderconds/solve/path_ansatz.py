@@ -15,12 +15,12 @@ from orderconds.solve.paths import Path, full_paths, symmetric_paths
 from orderconds.solve.spec import Spec, refuse
 from orderconds.solve.tableau_ansatz import tableau_structures
 
-# In the emitted text, the definition of k_i precedes this text (:func:`_numbers_of_exponentials`): stage i
-# begins with the first k_i exponentials of the update.
+# MIRRORED contains k_i. Therefore :func:`_numbers_of_exponentials` puts a definition of k_i before MIRRORED:
+# "stage i begins with the first k_i exponentials of the update".
 MIRRORED = (
     "Y_1, ..., Y_m are the exponents of the update; s is the number of stages; "
-    "stage i has the exponents Y_1, ..., Y_(k_i), X_i1, X_i2, ..., in this order; but if m and s are odd, "
-    "stage i = (s+1)/2 has Y_1, ..., Y_(k_i), (1/2) Y_(k_i+1), X_i1, X_i2, ...; "
+    "stage i has the exponents Y_1, ..., Y_(k_i), X_i1, X_i2, ..., in this order; "
+    "if m and s are odd, stage i = (s+1)/2 has one more exponent, (1/2) Y_(k_i+1), directly before X_i1; "
     "bar X is X with its coefficients in reverse order; Y_I = bar Y_J if I + J = m + 1; "
     "X_ir = -bar X_jr if i + j = s + 1"
 )
@@ -91,8 +91,8 @@ def commutator_free(family: Family, spec: Spec, structure: str, name: str) -> An
 
 
 def _numbers_of_exponentials(stages: Sequence[Path], update: Path, symmetric: bool) -> str:
-    """Return a clause about the form of the method. The form of symmetric methods is defined in
-    :mod:`orderconds.solve.paths`.
+    """Return a text that states the largest possible numbers of exponentials in the update and in each stage.
+    For symmetric methods, the text also describes the symmetry (:mod:`orderconds.solve.paths`).
 
     >>> _numbers_of_exponentials(*full_paths(Spec(stages=2, explicit=True))[:2], symmetric=False)
     'the update is y0 multiplied by at most 2 exponentials, and stage i is y0 multiplied by at most n_i \
@@ -115,14 +115,15 @@ exponentials, with n = (0, 2)'
 def _abscissae(
     stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], elimination: Elimination
 ) -> dict[str, str]:
-    """Return a map from names to formulas. If the coefficients of a commutator-free method satisfy these
-    formulas, the three abscissae of each stage are equal. The module :mod:`orderconds.solve.abscissae`
-    defines the abscissae.
+    """Stage i of a variational method on a Lie group has three abscissae c_i, chat_i and m_i
+    (:mod:`orderconds.solve.abscissae`). Return a map from names to formulas. If the coefficients of a
+    commutator-free method satisfy these formulas, c_i = chat_i = m_i for each stage i.
 
     Let k_j be the vector field at stage j, and let a_ij be the sum of the coefficients of k_j in all
     exponentials of stage i. The map contains formulas for
 
-    - the numbers in :func:`commutator_free_times`;
+    - the weights b_i, the abscissae m_i, and the sum y_J of each row J of ``update``
+      (:func:`commutator_free_times`);
     - the sums a_ij; if a sum can be chosen freely, its name is mapped to itself;
     - the coefficients in the last exponential of each stage i: the coefficient of k_j is a_ij minus the
       coefficients of k_j in the other exponentials of stage i.
@@ -159,11 +160,12 @@ def _gauss(s: int) -> dict[str, str]:
 
 
 def _totals(stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]]) -> list[Constraint]:
-    """Return two kinds of constraints. Here a_ij and b_j are the coefficients of the Gauss method with
-    ``len(stages)`` stages. Let k_j be the vector field at stage j.
+    """Return two kinds of constraints. Let k_j be the vector field at stage j.
 
-    - In the exponentials of stage i, the coefficients of k_j add up to a_ij.
-    - In the exponentials of the update, the coefficients of k_j add up to b_j.
+    - In the exponentials of stage i, the coefficients of k_j add up to the coefficient a_ij of the Gauss
+      method with ``len(stages)`` stages.
+    - In the exponentials of the update, the coefficients of k_j add up to the weight b_j of the same Gauss
+      method.
     """
     why, every = "Gauss's tableau", range(len(stages))
     constraints = [equal(why, (-1, f"w{j + 1}"), *((1, line[j]) for line in update)) for j in every]

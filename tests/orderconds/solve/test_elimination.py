@@ -201,8 +201,8 @@ def test_a_weight_that_may_be_zero_in_the_equation_is_named_in_the_reason() -> N
     proof = _certificate([k], [(condition, member)], consequence, weight, plain)
     assert proof is not None
     assert proof.reason == (
-        "b1^3 + b1 = 0 has no real root except zero (Sturm), but "
-        "b1 must not be zero: the formulas of the family divide by b1"
+        "the only real solution of b1^3 + b1 = 0 is b1 = 0 (Sturm's theorem), "
+        "but the formulas of the family divide by b1"
     )
 
 
