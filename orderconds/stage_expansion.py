@@ -37,8 +37,8 @@ def expand_stages(derivation: Derivation, stages: int, *, explicit: bool = False
     If ``explicit`` is true, only the strictly lower triangular entries of A are variables.
 
     Raises :class:`~orderconds.errors.InputError` if there are too many terms (:data:`MAX_COMPUTED`,
-    :data:`MAX_TERMS`). The same error is raised if the tableau format of the family has no expansion, as in
-    the family ``cf``.
+    :data:`MAX_TERMS`). The same error is raised for families such as ``cf``, whose tableaux are not
+    tableaux of Runge-Kutta methods, compositions or splittings.
 
     >>> from orderconds.derivation import derive
     >>> derivation = derive("rk", order=2)
@@ -88,8 +88,8 @@ def polynomials(
     """Return a polynomial ring, its variables, and the left-hand sides of the conditions as polynomials.
 
     If weights b_i occur in denominators in the order conditions, the ring consists of Laurent polynomials.
-    Raises :class:`~orderconds.errors.InputError` if the tableau format of the family has no expansion, as in
-    the family ``cf``.
+    Raises :class:`~orderconds.errors.InputError` for families such as ``cf``, whose tableaux are not
+    tableaux of Runge-Kutta methods, compositions or splittings.
 
     >>> from orderconds.derivation import derive
     >>> ring, names, values = polynomials(derive("rk", order=2), 2, explicit=True)

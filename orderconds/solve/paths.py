@@ -13,8 +13,10 @@ it satisfies the following two conditions:
 
   The number k, which may be zero, and the exponents X_1, ..., X_r depend on i. Stage i begins with the first
   k exponentials of the update, and stage s + 1 - i begins with the first m - k exponentials of the update.
-  An exception is the middle stage i = (s + 1)/2 if s and m are odd: here k = (m - 1)/2, and the factor
-  exp(Y_{k+1} / 2) acts between exp(Y_k) and exp(X_1).
+  If s and m are odd, the middle stage i = (s + 1)/2 has another form, with k = (m - 1)/2 and bar X_j = -X_j
+  for j = 1, ..., r:
+
+      Q_i = exp(X_r) ... exp(X_1) exp(Y_{k+1} / 2) exp(Y_k) ... exp(Y_1) y0.
 
 A step of length -h of a symmetric method is the inverse of a step of length h.
 """

@@ -86,8 +86,8 @@ class Problem:
         return list(self.family.residuals(method, ring, conditions))
 
     def _read(self, method: Method, ring: Ring) -> Method:
-        """Return ``method``. If ``ansatz.abelian`` is true, convert a commutator-free method to a Runge-Kutta
-        method."""
+        """If ``ansatz.abelian`` is true and ``method`` is commutator-free, return the Runge-Kutta method that
+        equals ``method`` on abelian groups. Otherwise, return ``method``."""
         if self.ansatz.abelian and isinstance(method, CommutatorFree):
             return method.as_runge_kutta(ring)
         return method

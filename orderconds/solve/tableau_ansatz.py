@@ -90,10 +90,11 @@ def _assumptions(family: Family, spec: Spec) -> tuple[str, ...]:
         assumptions.append("a_ij + a_(s+1-i)(s+1-j) = b_j for all i and j")
     if spec.fsal:
         assumptions.append("a_1j = 0 and a_sj = b_j for all j")
-    # The proof in :func:`orderconds.solve.elimination.infeasible` considers only nonzero weights. This is no
-    # assumption without options, because each symplectic method with zero weights computes the same step as a
-    # symplectic method with nonzero weights. But this second method may violate --dirk, --symmetric or --fix.
-    # If ``needs_nonzero_weights`` is true, the family already excludes zero weights.
+    # The proof in :func:`orderconds.solve.elimination.infeasible` considers only nonzero weights. Each
+    # symplectic method with zero weights computes the same step as a symplectic method with nonzero weights.
+    # But the method with nonzero weights may violate --dirk, --symmetric or --fix. Therefore nonzero weights
+    # are an assumption only if one of these options is used. If ``needs_nonzero_weights`` is true, the family
+    # already excludes zero weights.
     if family.symplectic and not family.needs_nonzero_weights and (spec.dirk or spec.symmetric or spec.fix):
         assumptions.append("all weights b_i are nonzero")
     return tuple(assumptions)
@@ -108,11 +109,13 @@ def _symplectic(
     For a symmetric method with s stages, the equations for (i, j) and for (s + 1 - j, s + 1 - i) are
     equivalent. The equation for (i, s + 1 - i) follows from the symmetry.
 
-    Raises InputError if the constraints imply b_i = 0 for a weight. The same error is raised if they
-    determine both a_ij and a_ji, and the equation for (i, j) does not follow from them.
+    Raises InputError if the constraints imply b_i = 0 for a weight. Also raises InputError if the constraints
+    determine both a_ij and a_ji, but do not imply the equation for (i, j).
     """
     require_nonzero(
-        elimination, {x: [x] for x in b}, "symplectic methods do not use a stage with the weight 0"
+        elimination,
+        {x: [x] for x in b},
+        "a symplectic method computes the same step without the stages of weight 0",
     )
     cells, last = Cells(elimination), len(b) - 1
     formulas: dict[str, str] = {}

@@ -49,7 +49,7 @@ class Product(Struct, frozen=True):
 
 
 Term = int | str | Bracket | Product
-"""A node, the name of an element, a bracket or a product. Nodes are counted from 0."""
+"""An integer is a node, and nodes are counted from 0. A string is the name of an element."""
 Combination = tuple[tuple[Term, Element], ...]
 """A linear combination of terms, as pairs (term, coefficient)."""
 

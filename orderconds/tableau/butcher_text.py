@@ -1,4 +1,4 @@
-"""A Butcher tableau as text: the columns c and A, a horizontal line, and the row b below the line."""
+"""A Butcher tableau as text: the column c, the matrix A, a horizontal line, and below the line the row b."""
 
 from __future__ import annotations
 

@@ -71,8 +71,8 @@ def _coefficients(tableau: Tableau) -> list[tuple[fmpq, fmpq]]:
 
 
 def _agree(one: tuple[fmpq, fmpq], other: tuple[fmpq, fmpq]) -> bool:
-    """Return True if two intervals intersect, and if the larger width is at most 4 w + 2^-100. Here w is the
-    smaller width."""
+    """Let w <= W be the widths of two intervals. Return True if the intervals intersect and
+    W <= 4 w + 2^-100."""
     widths = sorted(high - low for low, high in (one, other))
     meet = one[0] <= other[1] and other[0] <= one[1]
     return bool(meet and widths[1] <= 4 * widths[0] + fmpq(1, 2**100))

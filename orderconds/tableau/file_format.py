@@ -92,9 +92,9 @@ class Format(Struct, forbid_unknown_fields=True, kw_only=True):
 
     @classmethod
     def defaults(cls, names: Collection[str]) -> Data:
-        """Return a map from keys of a tableau file to default values. A default value is used if a tableau is
-        stored as named arrays, and no array has the name of the key. ``names`` contains the names of the
-        arrays."""
+        """Return default values for a tableau that is stored as named arrays. The result maps keys of a
+        tableau file to these values. ``names`` contains the names of the arrays. A default value is used if
+        no array has the name of the key."""
         return {}
 
     def coefficients(self) -> Places:

@@ -320,8 +320,6 @@ class CommutatorFreeFile(Format, forbid_unknown_fields=True, kw_only=True):
 
 
 def _verify_product(entry: StageEntry, before: int, s: int, where: str) -> None:
-    """Check that each row of ``entry.exp`` has at most s entries. The optional key ``from`` must be at least
-    1 and at most ``before``."""
     for r, row in enumerate(entry.exp):
         verify_length(row, s, f"{where}.exp[{r + 1}]")
     if entry.start is not None and not 1 <= entry.start <= before:

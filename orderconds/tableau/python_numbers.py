@@ -42,8 +42,10 @@ class _Narrow(Protocol):
 def coefficient(x: object, where: str) -> Coefficient:
     """Convert a number to a coefficient of a tableau file.
 
-    A NumPy float of 16 or 32 bits with more significant bits than :data:`NARROW` becomes a rounded decimal.
-    Otherwise, the float is converted like a double, by :func:`~orderconds.tableau.doubles.double_text`.
+    A NumPy float of 16 or 32 bits becomes an exact decimal if it counts as an exact number
+    (:func:`~orderconds.tableau.doubles.is_short` with the number of bits in :data:`NARROW`). Otherwise, the
+    float becomes a rounded decimal.
+
     Raises TableauError for complex numbers, infinities, NaN, truth values and objects that are not numbers.
 
     >>> from fractions import Fraction

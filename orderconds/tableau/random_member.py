@@ -39,8 +39,9 @@ OUTSIDE = (TableauError, ZeroWeight, ZeroDivisionError)
 
 
 class RandomMember(Rationals):
-    """The ring of rational numbers, for the evaluation of a tableau file. In this ring, each rounded decimal
-    and each radical in the file has a random rational number as its value."""
+    """The ring of rational numbers, for tests of identities between coefficients of a tableau file. A random
+    number replaces each rounded decimal and each radical in the file, because an identity that holds for
+    random numbers almost certainly holds for all numbers."""
 
     def __init__(self, symbolic: SymbolicCoefficients, draws: Draws | None = None) -> None:
         self._symbolic, self._draws = symbolic, draws or Draws(description(symbolic))

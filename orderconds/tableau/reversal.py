@@ -54,8 +54,8 @@ def sign(method: Magnus, ring: Ring) -> int | None:
 
     The test writes the exponent as the sum of a linear combination of A_1, ..., A_s and other terms, such as
     brackets. The exponent is odd if the linear combination and all other terms are odd. The exponent is even
-    if the linear combination and all other terms are even. The test cannot decide for a bracket or product
-    with a factor that is neither odd nor even.
+    if the linear combination and all other terms are even. If a bracket or a product in the exponent has a
+    factor that is neither odd nor even, the result is None.
 
     >>> from orderconds.ring import QQ
     >>> sign(Magnus((QQ.zero, QQ.one), (((0, QQ.one), (1, QQ.one)),)), QQ)

@@ -154,8 +154,9 @@ def _with_zeros(E: list[Element], ring: Ring, *proofs: Sequence[bool]) -> list[E
 
 
 def _length(E: Coefficients, ring: Ring, convert: Callable[[float], float]) -> float | None:
-    """Return ``convert(t)`` for the largest t such that E >= 0 on [0, t]. Return ``math.inf`` if E is never
-    negative, and None if the length is undecided (:class:`Intervals`)."""
+    """Return the length ``convert(t)`` of a stability interval, where t is the largest number such that
+    E >= 0 on [0, t]. Return ``math.inf`` if E is never negative, and None if the length is undecided
+    (:class:`Intervals`)."""
     limited = cast("SignedRing", Limited(ring))
     try:
         zero = _first_descent(E, limited)

@@ -27,8 +27,6 @@ def toml_text(data: Mapping[str, object]) -> str:
 
 
 def _entries(table: Mapping[str, object]) -> Iterator[str]:
-    """Yield the text ``key = value`` for each entry of the table, except for entries that are written below a
-    line ``[key]`` or ``[[key]]`` (:func:`_headed`)."""
     for key, value in table.items():
         if not _headed(key, value):
             yield _line(key, value)

@@ -13,11 +13,12 @@ equations, and the rounded decimals are approximate values of the unknowns in th
     reduction = "symmetric"    # optional: the method is symmetric, and equations of even order are omitted
     printed = { a21 = "0.8177227988124852" }   # optional: the digits printed in the source
 
-Each unknown has a name. If the definition of a named number contains the decimal, for example ``numbers.a21 =
-"0.5~"``, the unknown has the same name as the number. Otherwise, the name is the position of the coefficient
-that contains the decimal, for example ``A[2][1]``. If one coefficient or number contains several decimals,
-the value of the decimal is appended to the name, for example ``A[2][1]: 0.25``. Equal decimals in the file
-are one unknown. The first of the equal decimals determines the name of the unknown.
+Each unknown has a name. If the rounded decimal of the unknown occurs in the definition of a named number, for
+example ``numbers.a21 = "0.5~"``, the unknown has the name of the number, here ``a21``. Otherwise, the name is
+the position of the coefficient that contains the decimal, for example ``A[2][1]``. If one coefficient or
+number contains several decimals, the value of the decimal is appended to the name, for example
+``A[2][1]: 0.25``. Equal decimals in the file are one unknown. The first of the equal decimals determines the
+name of the unknown.
 """
 
 from __future__ import annotations

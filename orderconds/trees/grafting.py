@@ -5,11 +5,11 @@ in the direction F(u). Unordered trees with the grafting product form the free p
 Livernet 2001).
 
 On a Lie group, trees are ordered, because derivatives in different directions do not commute. Let t be an
-ordered tree with the branches t_1, ..., t_k at the root. F(t) is the k-th derivative of the vector field,
-first in the direction F(t_k), and last in the direction F(t_1). In these derivatives, each direction is
-frozen: F(t_i) is an element of the Lie algebra and is not differentiated. Grafting onto the root gives one
-further derivative. The grafted tree becomes the leftmost branch (Munthe-Kaas and Wright, Found. Comput. Math.
-8 (2008) 227).
+ordered tree with the branches t_1, ..., t_k at the root. To obtain F(t), differentiate the vector field k
+times: first in the direction F(t_k), then in the direction F(t_{k-1}), ..., and last in the direction F(t_1).
+In these derivatives, each direction is frozen: F(t_i) is an element of the Lie algebra and is not
+differentiated. Grafting onto the root gives one further derivative. The grafted tree becomes the leftmost
+branch (Munthe-Kaas and Wright, Found. Comput. Math. 8 (2008) 227).
 
 HLW denotes Hairer, Lubich and Wanner, *Geometric Numerical Integration*.
 """

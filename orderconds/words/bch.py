@@ -51,10 +51,10 @@ def goldberg(word: str) -> Fraction:
     """Return the coefficient of a non-empty word over A and B in log(exp A exp B).
 
     Let s_1, ..., s_m be the lengths of the runs of equal letters in the word, and let [x] be the integer part
-    of x. Let G_1 = 1, and let G_s = 1/s d/dt (t (t - 1) G_{s-1}) for s > 1. If the first letter is A, the
-    coefficient is the integral of t^[m/2] (t - 1)^[(m-1)/2] G_{s_1}(t) ... G_{s_m}(t) from t = 0 to t = 1. If
-    the first letter is B, the coefficient is (-1)^(n-1) times the integral, where n is the number of letters
-    (Goldberg 1956, Thm 1 and Cor. 2).
+    of x. Let G_1(t) = 1. For s > 1, let G_s(t) be the derivative of t (t - 1) G_{s-1}(t) / s. If the first
+    letter is A, the coefficient is the integral of t^[m/2] (t - 1)^[(m-1)/2] G_{s_1}(t) ... G_{s_m}(t) from
+    t = 0 to t = 1. If the first letter is B, the coefficient is (-1)^(n-1) times the integral, where n is the
+    number of letters (Goldberg 1956, Thm 1 and Cor. 2).
 
     >>> str(goldberg("AB")), str(goldberg("BAA")), goldberg("AA") == 0
     ('1/2', '1/12', True)
