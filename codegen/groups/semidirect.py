@@ -87,7 +87,10 @@ class Semidirect(
 
     @property
     def blocks(self) -> tuple[tuple[int, int], ...]:
-        """The blocks of the linear factor, and one block for each copy (:attr:`LieGroup.blocks`)."""
+        """The blocks of coordinates (:attr:`LieGroup.blocks`) of the product of a group G and V = W^m.
+
+        The blocks of G come first, followed by m blocks, one for each copy of the vector space W.
+        """
         return (*self.linear.blocks, *((self.width, self.width),) * self.representation.copies)
 
     def _split(self, x: Vector[S]) -> Pair[S]:

@@ -224,8 +224,8 @@ class ExponentialAction(VectorFunction):
         or more.
         """
         entries, rows = len(self.places), self.rows
-        # Each absolute entry times n is compared separately, because ``max`` ignores a NaN after the first
-        # number. The comparison is false for a NaN.
+        # All numbers in ``sizes`` are compared with 2^40, because ``max(sizes)`` may be finite although one
+        # of the numbers is a NaN. The comparison of a NaN is false, so the error is raised.
         sizes = [abs(x) * self.n for x in args[:entries]]
         if not all(x < 2**40 for x in sizes):
             raise OverflowError("the norm of the matrix is too large for its exponential")

@@ -29,10 +29,12 @@ remain for the decision.
 """
 
 FACTORS = 618034, 1000003
-"""Two numbers p and q: argument number k of a vector function changes by 1 + (p k mod q)/q times its size.
+"""The numbers p and q in the factors t_k = 1 + (p k mod q)/q.
 
-The number q is prime, so the factors of the first q arguments are different. The quotient p/q is close to the
-golden ratio 0.618..., so the factors of neighbouring arguments are not close together.
+If argument k of a vector function has the size s_k (:class:`Sized`), a difference quotient changes this
+argument by t_k s_k times the step. The number q is prime, so the factors of the first q arguments are
+different. The quotient p/q is close to the golden ratio 0.618..., so the factors of neighbouring arguments
+are not close together.
 """
 
 
@@ -183,6 +185,7 @@ class RoundingDomain:
                 continue
             if all(isinstance(x, self.context.mpf) and self.context.isfinite(x) for x in moved):
                 return [abs(a - b) / self._shift for a, b in zip(moved, values, strict=True)]
-        # Neither step gave finite real numbers. The estimate |f(0)| assumes that a small relative change of
-        # the arguments changes f by the same relative amount.
+        # Neither step gave finite real numbers, so there is no difference quotient. The absolute values of
+        # the results are returned instead, as if a relative error eps of the arguments caused a relative
+        # error eps of each result.
         return [abs(x) for x in values]

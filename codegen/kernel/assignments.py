@@ -137,9 +137,9 @@ class Assignments:
                 self._place(node, self.body, [], -1)
         own: list[Let] = []
         placed = tuple(self._place(x, own, [], -1) for x in values)
-        # A step may skip the assignments in ``own``, so other statements must not read their variables. Only
-        # nodes outside ``later`` were replaced by these variables. The next line deletes these nodes from
-        # ``self.done``.
+        # A step may skip the assignments in ``own``, so other statements must not read the variables that
+        # ``own`` assigns. The next line removes these variables from ``self.done``. The nodes in ``later``
+        # remain, because the loop above assigned them before the ``Start`` statement.
         self.done = {n: x for n, x in self.done.items() if n in later}
         return Start(tuple(u for b in self.blocks for u in b.unknowns), tuple(own), placed)
 

@@ -99,12 +99,14 @@ class Frames:
 
         If the two kernels are not needed, the result is None.
         """
-        # If the program and the emitted code use the same frame (``_alike``), the momentum is not converted.
-        # If the frames differ, and ``whole`` is true or the emitted code uses the body frame (``body_group``
-        # is not None), each step converts the momentum itself. In all these cases, no kernels are needed.
+        # No kernels are needed in three cases:
+        # - ``_alike`` is true. Then the momentum is never converted.
+        # - ``whole`` is true. Then each step converts the momentum.
+        # - ``body_group`` is not None. Then each step converts the momentum, too.
         if self._alike or self.whole or self.scene.body_group is not None:
             return None
-        # In the remaining case, the program uses the body frame, and the emitted code uses the space frame.
+        # Here a step computes with the momentum in the body frame, but the user of the emitted code supplies
+        # the momentum in the space frame.
         state = tuple(domain.space.sym(s) for s in self.scene.symbols)
         q, mu = state[: self._size], state[self._size :]
         fields = self.fields()

@@ -26,9 +26,9 @@ For larger matrices, Gaussian elimination takes fewer operations.
 LEAST_NUMERATOR = 2**50
 """The number m in a test for rounding errors in quotients whose divisor is zero at h = 0.
 
-If the numerator a of such a quotient satisfies |a| <= s/m with its size s (:func:`_size`), the numerator
-counts as a rounding error and is replaced by zero. The number of terms is small, so the rounding error of a
-is at most a few times 2^-53 s. Here 2^-53 is the unit roundoff.
+The numerator of such a quotient is a sum of a few terms. Let s be the sum of the absolute values of these
+terms (:func:`_size`). The rounding error of the numerator is at most a few times 2^-53 s, where 2^-53 is the
+unit roundoff. If the absolute value of the numerator is at most s/m, the numerator is replaced by zero.
 """
 
 Rows = tuple[tuple[Expr, ...], ...]
@@ -103,8 +103,8 @@ class _Regular(ExprDomain):
 def _size(root: Expr) -> Expr:
     """Return the sum of the absolute values of the terms of a sum.
 
-    Cancellation in the terms, as in (a - b)^2, is neglected. A better estimate would make the matrix of
-    ``discrete_gradient:midpoint`` on ``free_rigid_body_s3`` longer by a third.
+    Cancellation within a term, as in (a - b)^2, is neglected, because a better estimate would need longer
+    formulas.
     """
     # A sum may contain another sum several times. ``walk`` visits this sum only once.
     sizes: dict[int, Expr] = {}

@@ -88,8 +88,8 @@ class Outline:
             rewritten_roots, shapes = self._called(roots, chosen)
             # A call reads the inputs of its tree and the parameters of its function, but one of these symbols
             # x may be missing in ``roots``. For example, if x occurs only in x - x, ``roots`` contains 0
-            # instead. Emitted code might not define x, so no tree is replaced by a call that reads x. At
-            # least one tree is removed, because each symbol in ``added`` is an input or a parameter.
+            # instead. Emitted code might not define x, so trees whose calls read such a symbol are removed
+            # from ``trees``. The list becomes shorter in each repetition, so the loop ends.
             added = _symbols(rewritten_roots) - _symbols(roots)
             if added:
                 trees = [

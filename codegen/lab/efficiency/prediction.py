@@ -187,12 +187,10 @@ class Bar:
 
         - ``step_seconds``, the predicted CPU time of one step, exceeds ``self.seconds``.
         - The method is implicit, and the limits accept only explicit methods (``self.explicit`` is True).
-        - The error of the method is assumed to be at least e/:data:`FAR`, and e/FAR exceeds ``self.error``.
-          Here e is the smallest error that is predicted for the methods of the orders p + 1 and p + 2 with
-          the CPU time ``self.seconds``. The attribute ``least`` contains e for the methods of the same family
-          that are explicit or implicit like the method. If ``least`` has no entry for them, the entry for the
-          methods of all families is used. If both entries are missing, this case
-          does not apply.
+        - e/:data:`FAR` exceeds ``self.error``. Here e is the smallest error that is predicted for methods of
+          the orders p + 1 and p + 2 with the CPU time ``self.seconds``. The number e comes from the triple
+          (``family``, ``explicit``, e) in ``self.least``. If this triple is missing, e comes from the triple
+          ('', ``explicit``, e) for all families. If both triples are missing, e is 0.
         """
         if step_seconds > self.seconds or (self.explicit and not explicit):
             return True

@@ -63,9 +63,9 @@ class Recommendation:
 
     - ``places``: for each successful recipe, the fastest run with at most the required error. Fast runs
       come first.
-    - ``best``: if no recipe is successful, the most accurate run of a recipe that meets ``request.needs`` and
-      ``request.stack`` and is not in ``lost``, or None if there is no such run. If ``places`` contains a run,
-      ``best`` is not needed and is None.
+    - ``best``: the most accurate run if ``places`` is empty, otherwise None. Only recipes that meet
+      ``request.needs`` and ``request.stack`` are considered, without the recipes in ``lost``. If there are no
+      such runs, ``best`` is None.
     - ``predicted``: the number of pairs (method, form of the equations) whose CPU time was predicted.
     - ``raced``: the number of measured recipes.
     - ``seconds``: the time of the search in seconds.

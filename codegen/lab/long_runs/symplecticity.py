@@ -179,16 +179,17 @@ def _scales(
     The coordinates are divided into blocks (:attr:`codegen.groups.base.LieGroup.blocks`), because the
     coordinates of different blocks can have different units.
 
-    - Let e be a basis element of the Lie algebra. Let v be the derivative of exp(s e) q with respect to s at
-      s = 0. The scale of the coordinate of xi in the direction e is the smallest quotient |q|/|v| of the
-      blocks of q and v.
-    - The scale ``action`` is the largest product of |mu| and the largest scale of a coordinate of xi in the
-      same block.
-    - If e moves only blocks of q that are zero, the scale in the direction e is ``action`` divided by |mu| in
-      the block of e. If this block of mu is zero, too, the scale is the largest of the other scales.
+    Let e_k be the basis elements of the Lie algebra, and let v be the derivative of exp(t e_k) q with respect
+    to t at t = 0. Let q_b and v_b be block b of q and v, and let m_k be the norm of the block of mu that
+    contains coordinate k.
 
-    The norms |q|, |v| and |mu| are computed before and after the step. For each norm, the larger of the two
-    values is used, because q or mu can be zero before or after the step.
+    - The scale of coordinate k of xi is s_k = min_b |q_b|/|v_b|. Blocks with q_b = 0 or v_b = 0 are omitted.
+    - The scale ``action`` is max_k s_k m_k. If this maximum is zero, ``action`` is max_k s_k times max_k m_k.
+    - If all blocks are omitted for an index k, this k is omitted in max_k s_k m_k and max_k s_k. The scale of
+      this coordinate is ``action``/m_k if m_k is not zero, otherwise max_k s_k.
+
+    The norms |q_b|, |v_b| and m_k are computed before and after the step. For each norm, the larger of the
+    two values is used, because q or mu can be zero before or after the step.
 
     Raises ArithmeticError if q is zero before and after the step, or if mu is zero before and after the step.
     """
