@@ -111,7 +111,7 @@ class PiecewiseField:
         return first, second
 
     def sides_at(self, y: Vector, t: Scalar, flow: Evaluate | None = None) -> Sides:
-        """Return the case of each operation with several cases just after the time t.
+        """For each operation with several cases, return the case that applies just after the time t.
 
         For example, abs(x) has the cases x > 0 and x <= 0. The state just after t is computed
         by a short Euler step from y with the derivative ``flow(y, t)``. By default, ``flow`` is the field of

@@ -69,8 +69,11 @@ UNLIKE = (
     "the Taylor polynomial of the solution is not accurate even on very short intervals; "
     "perhaps the field has no power series near this time"
 )
-"""Reasons why no step is possible: the error estimate of the extrapolation is too large, or the step differs
-from its Taylor polynomial (:meth:`codegen.lab.piecewise_field.Sided.stopped`).
+"""Two reasons for which the computation of a reference solution fails, for the text of the exception.
+
+- ``DIVERGES``: the error estimate of the extrapolation is too large.
+- ``UNLIKE``: the result of the extrapolation differs from the value of the Taylor polynomial of the solution
+  (:meth:`codegen.lab.piecewise_field.Sided.stopped`).
 """
 
 MODULES = (
@@ -136,7 +139,10 @@ class _Peaks:
         self.sizes = self.speeds = (0.0,) * count
 
     def add(self, field: Evaluate | Sided, y: Vector, t: Scalar) -> None:
-        """Include the state ``y`` at the time ``t``. A velocity that is not defined is omitted."""
+        """Update ``sizes`` with the state ``y``, and ``speeds`` with the velocity ``field(y, t)``.
+
+        If the velocity is not defined at (y, t), ``speeds`` does not change.
+        """
         self.sizes = _larger(self.sizes, y)
         with suppress(ArithmeticError, ValueError):
             self.speeds = _larger(self.speeds, field(y, t))

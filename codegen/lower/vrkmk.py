@@ -66,9 +66,9 @@ class _Step(ExpandedStep):
     def _evaluated(self) -> list[Var]:
         """Append the assignments for the velocities and forces of all stages to the program.
 
-        Return variables for the new v_i = dexp^{-1}_{X_i} xi_i, where xi_i is the velocity of stage i. The
-        series of dexp^{-1} is truncated after the terms with r brackets. The stages are computed from the
-        last to the first.
+        Let xi_i be the velocity of stage i at the position exp(X_i) q0. Return variables for the vectors
+        dexp^{-1}_{X_i} xi_i. The program uses only the terms of the series of dexp^{-1} with at most
+        ``self.r`` brackets. The stages are computed from the last to the first.
         """
         build, A, b = self.build, self.A, self.b
         lagrange, velocities = dict[int, Var](), dict[int, Var]()

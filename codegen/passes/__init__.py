@@ -172,9 +172,9 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         Pass("shared values", SHARED, value_numbering.run),
         Pass("factored maps", FACTORED, factor_linear.run),
         Pass("maps of shared sums", FACTORED, shared_sums.run),
-        # The pass "functions of ad" replaces Ad_{exp x} by a function of ad_x if no other operation reads
-        # exp(x). A product q exp(x) reads exp(x), so this pass first replaces some of these products by
-        # operations that read only q and x.
+        # The pass "rows of products" replaces some products q exp(x) by operations that read q and x, but not
+        # exp(x). The pass "rows of products" must come before "functions of ad", because "functions of ad"
+        # replaces Ad_{exp x} by a function of ad_x only if no other operation reads exp(x).
         Pass("rows of products", "one operation computes q exp(x)", lambda p: functions.rows(p, scene)),
         Pass("functions of ad", one_ad, lambda p: functions.run(p, scene)),
         # This pass uses operations that the pass "functions of ad" creates.

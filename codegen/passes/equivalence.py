@@ -249,7 +249,7 @@ class Reference:
           not;
         - None, if both programs fail for all lengths.
 
-        The reference program is tested for failure in arithmetic with :data:`FEW_DIGITS` digits.
+        The reference program counts as failed for a length if it fails with :data:`FEW_DIGITS` digits.
         """
         failure = None
         for step in point.results():

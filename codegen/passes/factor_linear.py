@@ -13,7 +13,7 @@ from codegen.passes.rewrite import Rewriter, rewrite
 
 def run(program: Program) -> Program:
     """Return the program with linear maps factored out of sums."""
-    # Each round reduces the number of linear maps, and the loop ends when a round changes nothing.
+    # The number of rounds is finite, because each replacement reduces the number of linear maps.
     while True:
         # Each round counts how often a value is read. Reads by unused operations must not count, so unused
         # operations are removed.

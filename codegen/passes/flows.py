@@ -29,7 +29,11 @@ the number is not critical: flows that commute over the tested durations commute
 """
 
 SHARES = Fraction(2, 7), Fraction(3, 7)
-"""The shorter durations of the two flows, divided by T/TYPICAL_STEPS."""
+"""Factors for the durations of two flows in the test whether the flows commute.
+
+The first flow is tested with the durations s and sqrt(2) s, where s = SHARES[0] * T/TYPICAL_STEPS, and T is
+the length of the time span. For the second flow, s = SHARES[1] * T/TYPICAL_STEPS.
+"""
 
 
 @dataclass(frozen=True)
@@ -137,7 +141,7 @@ def commuting(scene: Problem) -> Callable[[str, str], bool]:
     shorter = [d.rational(*(unit * share).as_integer_ratio()) for share in SHARES]
     ratio = d.call("sqrt", d.rational(2))
     durations = list(product(*((tau, tau * ratio) for tau in shorter)))
-    # Flows can commute for the default values of run-time parameters only.
+    # Flows that commute for the default values of the run-time parameters may not commute for other values.
     problems = (scene, varied(scene)) if scene.runtime else (scene,)
 
     def moved(problem: Problem, point: dict[str, Sized], parts: Sequence[tuple[str, Sized]]) -> list[Sized]:

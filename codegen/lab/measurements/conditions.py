@@ -83,10 +83,11 @@ class Conditions(Measurement[ConditionTables]):
         }
 
     def verdict(self, result: ConditionTables, subject: Subject) -> str:
-        """Return a sentence with the number of methods whose order is not higher than the computed order p.
+        """Return a sentence that says how many methods violate a condition of order p + 1.
 
-        These methods violate a condition of order p + 1. For the other methods, no violated condition of
-        order p + 1 is known.
+        Here p is the order that the program computed for the method, so p can differ from method to method.
+        The order of a method that violates a condition of order p + 1 is not higher than p. For the other
+        methods, no violated condition of order p + 1 is known.
         """
         if not result.methods:
             return ""

@@ -55,7 +55,7 @@ class Noise:
 
     @property
     def late(self) -> str:
-        """The caller's message for a run whose error can come from rounding errors of the time t."""
+        """The reason to exclude a run: its error can come from rounding errors of the time t."""
         return (
             f"{LATE}: near t = {self.time:g}, neighbouring floating-point numbers differ by "
             f"{self.epsilon * self.time:.1e}"

@@ -129,11 +129,10 @@ def _identities(tableau: Tableau) -> Vanishing:
     """Return which coefficients of |Q|^2 - |P|^2 are zero, where P/Q is the stability function.
 
     On the negative real axis and on the imaginary axis, |Q|^2 - |P|^2 is a polynomial (:class:`Vanishing`).
-    The tableau can contain rounded decimals and radicals. A coefficient counts as zero only if it is zero for
-    all values of these numbers. To test this, the function replaces them by random numbers. The probability
-    of a wrong answer is negligible (:mod:`orderconds.tableau.random_member`). Only tableaux whose
-    file contains equations for the exact coefficients (the table ``[proof]``) are tested. For all other
-    tableaux, no coefficient counts as zero.
+    If the tableau file contains no equations for the exact tableau (the table ``[proof]``), no coefficient
+    counts as zero. Otherwise, the function replaces the rounded decimals and the radicals in the tableau by
+    random numbers. If a coefficient is zero for the random numbers, it is zero for the exact tableau, too.
+    The probability of an exception is negligible (:mod:`orderconds.tableau.random_member`).
     """
     if tableau.proof is None:
         return Vanishing()

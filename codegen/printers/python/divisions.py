@@ -19,10 +19,10 @@ KEEPING = frozenset((*UNDEFINED, "cosh", "fabs", "sinh"))
 
 
 def hidden_divisions(unit: Unit) -> frozenset[Expr]:
-    """Return the divisions in a unit whose results can be infinite or NaN although all results of the
-    function are finite.
+    """Return the divisions that can give an infinity or a NaN in a function with finite results.
 
-    If the quotient of another division is infinite or NaN, a result of the function is infinite or NaN, too.
+    For example, if a function returns 1/(1 + 1/x), the division 1/x is infinite for x = 0, but the result is
+    0. If another division gives an infinity or a NaN, a result of its function is infinite or NaN, too.
     """
     return frozenset(x for function in unit.functions for x in _hidden(function))
 
@@ -35,8 +35,8 @@ def _hidden(function: Function) -> Iterable[Expr]:
     read = {term.text for term in _read(function) if term.op == "name"}
     shown: set[Expr] = set()
     while True:
-        # A name is shown if a statement other than an assignment of a formula reads it, or if its value
-        # reaches such a name by operations that keep an infinity or a NaN.
+        # If an expression in ``shown`` is infinite or NaN, a result of the function is infinite or NaN, too.
+        # Each round searches the formulas that are assigned to the names in ``read`` for such expressions.
         for root in reversed([root for target, root in formulas if target is None or target in read]):
             _keep(root, shown)
         more = {str(x.payload) for x in shown if x.op == "sym"} - read
@@ -59,7 +59,10 @@ def _formulas(function: Function) -> Iterable[tuple[str | None, Expr]]:
 
 
 def _read(function: Function) -> Iterable[Term]:
-    """Yield the terms that a function reads, except the formulas that it assigns, and scalar targets."""
+    """Yield all terms in the statements of a function, with two exceptions.
+
+    The exceptions are a scalar on the left-hand side of an assignment, and a formula on the right-hand side.
+    """
     for statement in statements(function.body):
         whole = isinstance(statement, Assign) and statement.value.value is not None
         for term in direct(statement):
@@ -79,7 +82,10 @@ def _parts(term: Term) -> Iterable[Term]:
 
 
 def _keep(root: Expr, shown: set[Expr]) -> None:
-    """Add the parts of a formula to ``shown`` that make the formula infinite or NaN."""
+    """Add parts of the formula ``root`` to the set ``shown``.
+
+    If one of the added parts is infinite or NaN, ``root`` is infinite or NaN, too.
+    """
     waiting = [root]
     while waiting:
         node = waiting.pop()
