@@ -117,7 +117,8 @@ def header(
     lines += entry("left out", recipe.left_out, width)
     lines += entry("operations", counts, width)
     lines += entry("stack", [stack] if stack else [], width)
-    # A line break inside a quoted file name would damage the command, so ``entry`` must not see its spaces.
+    # ``entry`` may replace a space by a line break. Inside a quoted file name, a line break would damage the
+    # command, so the quoted spaces are replaced by "\0" during the call of ``entry``.
     command = re.sub(r"'[^']*'", lambda quoted: quoted[0].replace(" ", "\0"), recipe.command)
     lines += [line.replace("\0", " ") for line in entry("command", [command] if command else [], width)]
     lines += entry("version", [f"orderconds {recipe.version}"] if recipe.version else [], width)

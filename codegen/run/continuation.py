@@ -171,7 +171,10 @@ class _Continuation:
         ]
 
     def adapted(self) -> list[Statement]:
-        """Return the statements that choose the next step size or end the loop if the full step succeeded."""
+        """Return the statements that follow each attempt.
+
+        If the full step succeeded, these statements end the loop. Otherwise, they choose the next step size.
+        """
         plan, factor, part, solved = self.plan, self.factor, self.part, self.solved
         assert plan.start is not None
         values = plan.memory.field("values", Kind.REAL, (2 * plan.start.depth, self.n))

@@ -448,7 +448,8 @@ class _Compiler:
             case "add" | "sub" | "mul" | "div":
                 left, right = args
                 binary = _BINARY[{"add": "+", "sub": "-", "mul": "*", "div": "/"}[root.op]]
-                # A formula with a part that is infinite can be finite, so doubles divide as in C.
+                # In C, 1 / (1 + 1 / x) is 0 for x = 0. Python's ``/`` raises an exception for 1 / x, so
+                # ``divided`` replaces ``/`` for doubles.
                 if root.op == "div" and isinstance(domain, FloatDomain):
                     binary = divided
                 return lambda env: binary(left(env), right(env))

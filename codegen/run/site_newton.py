@@ -231,8 +231,8 @@ class ChainSolver:
         """Return the emitted function that factors the matrix and returns a status."""
         n, diagonal, column = self.n, real("diagonal", self.n * self.n), real("column", self.n)
         invert = Call("invert", (whole(n), diagonal), (_REGULAR,))
-        # If a pivot block contains an infinity or a NaN, all later pivot blocks contain one, too. Therefore
-        # the last failure gives the right status.
+        # A later failure overwrites the status. However, if a pivot block contains an infinity or a NaN, all
+        # later pivot blocks contain one, too. Therefore SINGULAR never overwrites NOT_FINITE.
         cause = select(all_finite(diagonal), code(SINGULAR), code(NOT_FINITE))
         tested = If(_REGULAR.equals(whole(0)), (Assign(STATUS, cause),))
         # At site i - 1, the block RIGHT was already multiplied by the inverse of the pivot block.
@@ -282,9 +282,9 @@ class ChainSolver:
 
         The border contains the coefficients of the last site's unknowns in the equations of all other sites.
         """
-        # The block elimination visits the sites 0, ..., ``_LAST``, and omits the last site of the chain. The
-        # neighbours of the omitted site are the sites 0 and ``_LAST``. Only the equations of these two
-        # neighbours have nonzero coefficients in the border.
+        # The sites of the chain are 0, ..., ``_INNER``, and ``_LAST`` is ``_INNER`` - 1. The neighbours of
+        # site ``_INNER`` are site ``_LAST`` on the left and site 0 on the right. Only the equations of these
+        # two neighbours have nonzero coefficients in the border.
         n, ends = self.n, []
         for site, block in ((whole(0), LEFT), (_LAST, RIGHT)):
             there = self.border(site, _I, _J)
@@ -306,8 +306,8 @@ class ChainSolver:
         n = self.n
         first = row_of(self.step, _J * n + self.newton.border)
         solved = For(_J, whole(n), (Call(self.name("substitute"), (_INNER, SITES, self.work, first)),))
-        # The block elimination visits the sites 0, ..., ``_LAST``, and omits the last site of the chain, site
-        # ``_INNER``. The right neighbour of the omitted site is site 0, and the left neighbour is site
+        # The sites of the periodic chain are 0, ..., ``_INNER``, and ``_LAST`` is ``_INNER`` - 1. The right
+        # neighbour of site ``_INNER`` is site 0, because the chain is periodic. The left neighbour is site
         # ``_LAST``.
         right = self.cell(_INNER, RIGHT, _I, _K) * self.border(whole(0), _K, _J)
         left = self.cell(_INNER, LEFT, _I, _K) * self.border(_LAST, _K, _J)

@@ -447,7 +447,7 @@ def _too_small(step: SiteStep) -> Term:
         far = max(abs(offset[e]) for offset in step.offsets) if step.periodic else 0
         tests.append(shape[e] <= far if far else shape[e].equals(whole(0)))
         if step.periodic and any(sweep.axis == e for sweep in step.sweeps):
-            # For example, a periodic row of 3 sites has the pairs (0, 1) and (2, 0) with a common site.
+            # Pairs must not overlap, but in a periodic row of 3 sites, (0, 1) and (2, 0) share site 0.
             tests.append((shape[e] % 2).equals(whole(1)))
     return either(*tests)
 

@@ -315,13 +315,14 @@ class _Newton(_Loop):
     def regular(self) -> Term:
         """Return the test that is true if formulas have computed a usable inverse matrix.
 
-        If the matrix contains an infinity or a NaN, its determinant is infinite or NaN. The reciprocal of an
-        infinite determinant is 0, so all entries of the inverse are 0 or NaN. The changes would be 0, as if
-        the loop had converged.
+        If the matrix contains an infinity or a NaN, its determinant is infinite or NaN. The formulas multiply
+        by the reciprocal of the determinant, so all entries of the inverse are 0 or NaN. With an inverse of
+        zeros, Newton's corrections are 0. Without this test, the loop would then stop as if it had converged.
         """
         if self.kept:
             return largest(self.inverse) > 0.0
-        # Without an array, the first row is tested: no row of an inverse is zero.
+        # If the inverse is stored in scalar variables, a test of its first row is enough, because no row of a
+        # usable inverse is zero.
         return total(size(self.cell(k)) for k in range(len(self.unknowns))) > 0.0
 
     def singular(self) -> Term:
@@ -376,9 +377,10 @@ class _Newton(_Loop):
     def prepared(self) -> list[Statement]:
         """Return the statements that compute and invert the matrix before the sweeps of a step.
 
-        After a failed elimination, the emitted function returns SINGULAR if all numbers in the array of the
-        matrix are finite, and NOT_FINITE if the array contains an infinity or a NaN. If formulas compute no
-        usable inverse, the emitted function returns NOT_FINITE.
+        The matrix is inverted either by elimination or by formulas. If the elimination fails, the emitted
+        function returns SINGULAR if all numbers in the array of the matrix are finite, and NOT_FINITE if the
+        array contains an infinity or a NaN. If the formulas compute no usable inverse, the emitted
+        function returns NOT_FINITE.
         """
         sequence = self.entries()
         if self.newton.inverted:

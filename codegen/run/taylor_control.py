@@ -182,8 +182,8 @@ class _Controlled:
         listed.append(self.evaluate())
         if leave is not None:
             about = (
-                "Convert the value of the Taylor polynomial to the state after the step. The argument "
-                "state contains the state before the step, then the value of the polynomial."
+                "Convert the value of the Taylor polynomial to the state after the step. The array state "
+                "contains the old state, followed by the value of the polynomial."
             )
             listed.append(filling(Plan(leave, self.plan.format), LEAVE, about, self.trial))
         return tuple(listed)

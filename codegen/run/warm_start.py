@@ -182,8 +182,8 @@ class WarmStart:
             "Let 1, d_1, ..., d_order be the coefficients of the backward difference of the given order. Let "
             "u_0 be the latest stored solution, and u_k the solution k steps earlier. If first = 0 "
             "and sign = 1, compute the backward difference sum = u_0 + d_1 u_1 + ... + d_order u_order. "
-            "If first = 1 and sign = -1, extrapolate to the next step, so that the backward difference "
-            "sum + d_1 u_0 + ... + d_order u_(order-1) is zero."
+            "If first = 1 and sign = -1, compute the solution extrapolated to the next step, "
+            "sum = -d_1 u_0 - ... - d_order u_(order-1)."
         )
         parameters = (self.memory, order, first, sign, result)
         return Function("difference", about, parameters, tuple(body), often=True)

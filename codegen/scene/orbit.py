@@ -201,12 +201,12 @@ def orbit_of(problem: Problem) -> Orbit:
 def varied(problem: Problem) -> Problem:
     """Return a copy of a problem in which each run-time parameter has another value.
 
-    A formula can have a property only for the default value of a run-time parameter. For example, k q^4 does
-    not depend on q if k is 0. Emitted code needs properties that hold for all values.
+    Emitted code must be correct for all values of the run-time parameters. For example, if the default value
+    of k is 0, the formula k q^4 does not depend on q. In the copy, k is not 0, so k q^4 depends on q.
     """
     rng, values = random.Random("parameters"), dict(problem.parameters)
     for name in problem.runtime:
         share, value = Number.rational(rng.randint(1, 99), 1000), values[name]
-        # The value keeps its sign and its size, because formulas may be undefined for other values.
+        # A nonzero value changes by less than 10 percent, because formulas may be undefined for other values.
         values[name] = share if value.is_zero else value - value * share
     return replace(problem, parameters=values)

@@ -199,7 +199,7 @@ class _Body:
         first = self.terms.line(one(group[0]).args[0])
         # The indices must be consecutive, because a slice selects consecutive entries.
         neighbours = all(b == (entries[0] or 0) + k for k, b in enumerate(entries))
-        # The entry in ``statement`` and the entry in ``group[0]`` must belong to the same list.
+        # A slice belongs to one list, so ``statement`` must use the same list as ``group[0]``.
         same = self.terms.line(one(statement).args[0]) == first
         changed = root(one(statement)).text
         # Assignments that write to a list are joined only if they do not read this list. For example,

@@ -133,7 +133,13 @@ class _Module:
 
     @cached_property
     def divisions(self) -> frozenset[Expr]:
-        """The divisions that the module computes with a helper, for the same reason."""
+        """The divisions that the module computes with a helper function.
+
+        In C, a division by zero gives an infinity or a NaN, and the results of the step can still be finite:
+        for x = 0, the value of 1 / (1 + 1 / x) is 0. In Python, the operator ``/`` raises an exception for a
+        zero divisor, so the helper function replaces ``/`` in such formulas. In single precision, the numbers
+        of NumPy raise no exception, so the set is empty.
+        """
         return frozenset() if self.single else hidden_divisions(self.unit)
 
     @cached_property
