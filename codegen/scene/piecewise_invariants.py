@@ -72,8 +72,9 @@ class _Check:
         self.symbols = (*orbit.symbols, TIME)
 
     def run(self, root: Expr) -> None:
-        # For abs(choose(y, 1, -1)), the call of abs is omitted here, because choose(y, 1, -1) has the
-        # derivative zero. The call choose(y, 1, -1) is not omitted, so ``root`` is tested for jumps at y = 0.
+        # A selection is omitted from ``changing`` if its argument has the derivative zero along solutions,
+        # because the argument can then change only at a jump of another selection in ``changing``. For
+        # example, abs(choose(y, 1, -1)) is omitted, but choose(y, 1, -1) is tested at y = 0.
         changing = [n for n in selections([root]) if not self.constant(n.args[0], self.velocity)]
         if not changing:
             return
@@ -104,9 +105,9 @@ class _Check:
         """A combination contains one case of each operation in ``nodes``. Yield all possible combinations.
 
         For example, abs(x), abs(-x) and choose(x, a, b) have only two combinations of cases: (x, x, a) for
-        x > 0, and (-x, -x, b) for x <= 0. A piecewise polynomial has one case for each interval. For two
-        piecewise polynomials with the same argument and the same intervals, a combination contains the two
-        cases of one interval.
+        x > 0, and (-x, -x, b) for x <= 0. A piecewise polynomial has one case for each interval. If two
+        piecewise polynomials p and q have the same argument and the same two intervals, there are only two
+        combinations: (p_1, q_1) and (p_2, q_2), where p_k and q_k are the cases of p and q on interval k.
         """
         keys = [_key(node) for node in nodes]
         counts: dict[object, int] = {
@@ -139,10 +140,10 @@ class _Check:
             sides = self.beside(formula, point)
             values = [self.orbit.values((root, x), place) for place in sides]
             pairs = [v for v in values if v is not None]
-            # ``node`` switches where its argument ``x`` changes its sign. ``formula`` has different signs at
-            # the two points in ``sides``, but ``x`` may have the same sign. For example, x = choose(y, f, g)
-            # equals g for y <= 0, even where f changes its sign. If ``x`` has the same sign at the two
-            # points, the points are skipped.
+            # ``node`` switches where its argument ``x`` changes its sign. The two points in ``sides`` are on
+            # the two sides of a zero of ``formula``. If ``x`` has the same sign at the two points, the points
+            # are skipped. For example, let x = choose(y, f, g), and let ``formula`` be f. Where y <= 0, x
+            # equals g, and g usually has the same sign at the two points.
             if len(pairs) < 2 or (formula is not x and (pairs[0][1].value > 0) == (pairs[1][1].value > 0)):
                 continue
             compared = True

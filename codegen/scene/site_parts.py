@@ -100,7 +100,7 @@ def check_parts(scene: Problem, orbit: Orbit) -> None:
             raise SceneError(
                 f"the offset {offset} of the part {part.name}",
                 where=scene.name,
-                expected=f"one entry for each dimension of the lattice, which has {sites.dimension}",
+                expected=f"one entry for each dimension of the lattice; the dimension is {sites.dimension}",
             )
         _check_constant(scene, orbit, part)
     if sites.parts:

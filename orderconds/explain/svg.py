@@ -181,7 +181,7 @@ def _edge(vertex: Vertex, branch: Branch, x: float, y: float, far: float, high: 
 
 
 def _room(vertex: Vertex) -> float:
-    """Return the distance in px between the centre of a vertex and each edge of the vertex."""
+    """Return the distance in px from the centre of ``vertex`` at which the lines to other vertices begin."""
     return {"letter": 2 * RADIUS, "bracket": 1.0}.get(vertex.sign, RADIUS)
 
 

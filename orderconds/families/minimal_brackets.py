@@ -39,7 +39,7 @@ class MinimalBrackets(MuntheKaasFamily):
     def series(self, method: Method, ring: Ring) -> ForestSeries:
         """Return the Lie-Butcher series of one step of :attr:`program`. The argument ``method`` is not
         used."""
-        # The program contains ``Ball`` objects, but ``Enclosures`` requires the attribute ``value`` of each.
+        # ``Enclosures`` cannot compute with ``Ball`` objects, so each coefficient x is replaced by x.value.
         inner = self.converted(attrgetter("value")) if isinstance(ring, Enclosures) else self
         return BracketedSeries(ring, inner.program)
 

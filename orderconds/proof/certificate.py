@@ -60,8 +60,8 @@ class Certificate:
 
     def as_json(self) -> dict[str, object]:
         """Return the proved statement as a dictionary for JSON. The key "unknowns" lists the names of the
-        unknowns of the equations, such as "A[2][1]". The key "pins" lists the names of the rounded
-        numbers in the file that the proof treats as exact."""
+        unknowns of the equations, such as "A[2][1]". The key "pins" lists the names of the decimals
+        in the file that are not unknowns. The proof treats these decimals as exact numbers."""
         proof = self.tableau.proof
         assert proof is not None
         return {

@@ -81,11 +81,13 @@ class Elimination:
     def _contradicted(self, constraint: Constraint) -> list[str]:
         """Return the texts of the earlier constraints that contradict ``constraint``.
 
-        A linear combination of these constraints has the same unknowns as ``constraint``. The earlier
+        A linear combination of these constraints differs from ``constraint`` only in the constant term. For
+        example, the sum of a + b = 1 and b = 2 is a + 2*b = 3 and contradicts a + 2*b = 4. The earlier
         constraints are linearly independent, so there is only one such combination.
         """
-        # Each earlier constraint gets an additional variable. The additional variables that remain after the
-        # elimination belong to the constraints in the linear combination.
+        # The variable ``#k`` is added to the earlier constraint k. Then a linear combination of the earlier
+        # constraints is subtracted from ``constraint`` to eliminate the coefficients. If the combination
+        # contains constraint k, the variable ``#k`` is in the difference ``remaining``.
         texts = {f"#{k}": x.text for k, x in enumerate(self.imposed)}
         marked = Elimination((*texts, *self.names))
         marked.impose(

@@ -24,7 +24,7 @@ all other cases."""
 
 
 DIVISION = "the formulas of the family divide by a weight or another number that is zero at the solution"
-"""The reason why there is no proof if the proof fails with a ZeroDivisionError."""
+"""The message to the user if the proof of a solution fails with a ZeroDivisionError."""
 
 
 @dataclass

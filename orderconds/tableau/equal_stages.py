@@ -2,9 +2,9 @@
 
 Different tableaux can define the same method: a tableau may have stages that do not contribute to the step,
 it may contain a stage twice, and its stages have an arbitrary order. Such tableaux are called *equivalent*.
-Two stages are equal, for every vector field, if and only if they are in one class of the coarsest partition
-with this property: the sum of a_ij over the stages j of a class is the same for all stages i of a class. A
-partition with this property follows from equal stages because different stages have different B-series.
+A partition of the stages into classes is called admissible here if, for any two stages i and k of the same
+class, sum_{j in C} a_ij = sum_{j in C} a_kj for every class C. Two stages are equal for every vector field if
+and only if they are in the same class of the coarsest admissible partition.
 HLW denotes Hairer, Lubich and Wanner, *Geometric Numerical Integration*.
 """
 

@@ -23,8 +23,9 @@ EXPECTED = (
 
 NARROW = {2: (3, 5), 4: (7, 12)}
 """For NumPy floats of 2 and 4 bytes: the number of digits of a rounded decimal, and the largest number of
-significant bits of an exact number. The formats have 11 and 24 significant bits. As for doubles
-(:data:`~orderconds.tableau.doubles.SHORT`), at most half of them may belong to an exact number."""
+significant bits of an exact number. The latter is half the number of significant bits of the format, rounded
+down: 5 of 11 bits, and 12 of 24 bits. For doubles, it is 26 of 53 bits
+(:data:`~orderconds.tableau.doubles.SHORT`)."""
 
 
 class _Listed(Protocol):

@@ -38,9 +38,10 @@ def orthogonal(generators: Sequence[Series], letters: Sequence[int], length: int
     functionals: list[Functional] = []
     for content, words in sorted(_by_content(letters, length).items()):
         # Each word denotes a column of a matrix. If a column is a linear combination of the columns to its
-        # left, the coefficients of this linear relation are the values of a functional. ``_kernel`` puts the
-        # word of the dependent column in the first pair of the functional. The Lyndon words are the rightmost
-        # columns, so that as many functionals as possible have a Lyndon word in the first pair.
+        # left, the coefficients of this linear relation are the values of a functional. ``_kernel`` returns
+        # the functional as a tuple of pairs (word, value). The first pair contains the word of the dependent
+        # column. The Lyndon words are the rightmost columns, so that as many functionals as possible have a
+        # Lyndon word in the first pair.
         columns = sorted(words, key=lambda word: (is_lyndon(word), word))
         rows = list(_ideal(generators, letters, length, content))
         functionals += _kernel(rows, columns)
