@@ -25,6 +25,9 @@ A selection is a call of ``choose``, ``fabs`` or a piecewise polynomial. Each ca
 formulas, and the index is the index of the chosen formula.
 """
 
+MOST_CASES = 256
+"""The largest number of combinations of cases that are checked. Each takes about a millisecond."""
+
 
 def selections(roots: Sequence[Expr]) -> list[Expr]:
     """Return all selections (calls of ``choose``, ``fabs`` or a piecewise polynomial) in ``roots``.
@@ -34,8 +37,10 @@ def selections(roots: Sequence[Expr]) -> list[Expr]:
     return [node for node in walk(roots) if node.op == "call" and selects(node.payload)]
 
 
-def combinations(nodes: Sequence[Expr], most: int) -> list[Sides] | None:
-    """Return all combinations of sides of the selections ``nodes``, or None if there are more than ``most``.
+def combinations(nodes: Sequence[Expr]) -> list[Sides] | None:
+    """Return all combinations of sides of the selections ``nodes``.
+
+    The result is None if there are more than :data:`MOST_CASES` combinations.
 
     For example, abs(x), abs(-x) and choose(x, a, b) have only two combinations of sides: (1, 0, 1) for x > 0,
     and (0, 1, 0) for x <= 0. Two tables with the same argument and the same knots always use the polynomials
@@ -46,7 +51,7 @@ def combinations(nodes: Sequence[Expr], most: int) -> list[Sides] | None:
         key: len(node.payload.knots) + 1 if isinstance(node.payload, PiecewisePolynomial) else 2
         for (key, _), node in zip(keys, nodes, strict=True)
     }
-    if prod(counts.values()) > most:
+    if prod(counts.values()) > MOST_CASES:
         return None
     chosen = (dict(zip(counts, choice, strict=True)) for choice in product(*map(range, counts.values())))
     return [tuple(1 - side[key] if flipped else side[key] for key, flipped in keys) for side in chosen]

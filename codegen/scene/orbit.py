@@ -44,9 +44,6 @@ NEAR is 2, because one point is not sufficient if the force is zero at the initi
 first point can equal the initial momentum. The momentum at the second point is usually different.
 """
 
-MOST_CASES = 256
-"""The largest number of combinations of cases that are checked. Each takes about a millisecond."""
-
 LEAST = 1e-3
 """If a run-time parameter is smaller than LEAST or larger than 1/LEAST, formulas are also compared for values
 of the run-time parameters between LEAST and 1 (:func:`variants`).
@@ -78,6 +75,12 @@ class Orbit:
         """The arithmetic of all computations: floating-point arithmetic with 40 digits that also estimates
         the rounding error of each number."""
         return RoundingDomain(0, DIGITS)
+
+    @property
+    def changing(self) -> tuple[str, ...]:
+        """The parameters whose values differ between sample points."""
+        own = self.parameters
+        return tuple(name for name in own if any(other[name] != own[name] for other in self.others))
 
     @cached_property
     def points(self) -> tuple[dict[str, Sized], ...]:
@@ -199,7 +202,7 @@ class Orbit:
         must be zero in all combinations of their cases, because the sample points need not reach all cases.
         """
         nodes = selections(roots)
-        found = combinations(nodes, MOST_CASES)
+        found = combinations(nodes)
         for sides in found or ():
             smooth = on_sides(roots, nodes, sides)[0] if nodes else roots
             values = [self.values(smooth, point) for point in self.points]

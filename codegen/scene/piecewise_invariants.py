@@ -23,9 +23,9 @@ from codegen.ir.expr import Expr
 from codegen.ir.normal_form import Monomial, NormalForms, TooLong
 from codegen.ir.rounding_domain import Sized
 from codegen.ir.selection import SELECTING
-from codegen.ir.smoothness import argument_text, combinations, on_sides, selections
+from codegen.ir.smoothness import MOST_CASES, argument_text, combinations, on_sides, selections
 from codegen.ir.table import PiecewisePolynomial
-from codegen.scene.orbit import MOST_CASES, Orbit
+from codegen.scene.orbit import Orbit
 from codegen.scene.problem import TIME, Problem
 
 if TYPE_CHECKING:
@@ -76,7 +76,7 @@ class _Check:
         for node in changing:
             self.check_continuous(root, node)
         nodes = selections((*self.velocity, root))
-        found = combinations(nodes, MOST_CASES)
+        found = combinations(nodes)
         if found is None:
             raise self.error(f"has more than {MOST_CASES} combinations of cases")
         for sides in found:
