@@ -20,11 +20,11 @@ def with_runtime(problem: Problem, names: Sequence[str]) -> Problem:
     """Return a copy of ``problem`` with other values of parameters, or with parameters as run-time inputs.
 
     An entry ``alpha`` of ``names`` makes the parameter alpha an input. An entry ``alpha=1/2`` sets alpha to
-    1/2. The initial state, the invariants, the parts and the flows of the scene are then checked again: for the
-    new values, and for further values of the run-time inputs (:func:`codegen.scene.orbit.variants`).
+    1/2. The initial state, the invariants, the parts and the flows of the scene are then checked again: for
+    the new values, and for further values of the inputs (:func:`codegen.scene.orbit.variants`).
 
-    :class:`SceneError` is raised for an unknown parameter, for two values of one parameter, and for a value
-    that is not a number.
+    :class:`SceneError` is raised for an unknown parameter, for two values of one parameter, for a value
+    that is not a number, and for formulas that contradict each other.
     """
     values = dict(problem.parameters)
     runtime, fixed, folded = set(problem.runtime), dict(problem.fixed), set[str]()
