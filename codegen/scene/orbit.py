@@ -202,13 +202,13 @@ class Orbit:
         must be zero in all combinations of their cases, because the sample points need not reach all cases.
         """
         nodes = selections(roots)
-        found = combinations(nodes)
-        for sides in found or ():
+        cases = combinations(nodes)
+        for sides in cases or ():
             smooth = on_sides(roots, nodes, sides)[0] if nodes else roots
             values = [self.values(smooth, point) for point in self.points]
             if not all(row is not None and all(self.sized(x) for x in row) for row in values):
                 return False
-        return found is not None
+        return cases is not None
 
     def text(self, x: Sized) -> str:
         """Return a number as text for a message."""
@@ -240,8 +240,8 @@ def variants(problem: Problem) -> tuple[Problem, ...]:
     shares = {name: Number.rational(rng.randint(1, 99), 1000) for name in names}
     # The values keep their signs and sizes, because formulas may be undefined for other values.
     near = {name: share if (x := defaults[name]).is_zero else x - x * share for name, share in shares.items()}
-    found = [near]
+    choices = [near]
     # With a very small or very large parameter, terms of a formula can be smaller than the tolerance.
     if any(not LEAST <= abs(float(x)) <= 1 / LEAST for x in near.values()):
-        found.append({name: share if float(near[name]) > 0 else -share for name, share in shares.items()})
-    return tuple(replace(problem, parameters={**defaults, **values}, runtime=()) for values in found)
+        choices.append({name: share if float(near[name]) > 0 else -share for name, share in shares.items()})
+    return tuple(replace(problem, parameters={**defaults, **values}, runtime=()) for values in choices)

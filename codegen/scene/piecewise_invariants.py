@@ -76,10 +76,10 @@ class _Check:
         for node in changing:
             self.check_continuous(root, node)
         nodes = selections((*self.velocity, root))
-        found = combinations(nodes)
-        if found is None:
+        cases = combinations(nodes)
+        if cases is None:
             raise self.error(f"has more than {MOST_CASES} combinations of cases")
-        for sides in found:
+        for sides in cases:
             formulas, margins = on_sides((*self.velocity, root), nodes, sides)
             if _contradictory(margins):
                 continue  # No state has this combination of cases.
