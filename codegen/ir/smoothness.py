@@ -43,8 +43,8 @@ def combinations(nodes: Sequence[Expr]) -> list[Sides] | None:
     The result is None if there are more than :data:`MOST_CASES` combinations.
 
     For example, abs(x), abs(-x) and choose(x, a, b) have only two combinations of sides: (1, 0, 1) for x > 0,
-    and (0, 1, 0) for x <= 0. Two tables with the same argument and the same knots always use the polynomials
-    of the same interval.
+    and (0, 1, 0) for x <= 0. For two piecewise polynomials with the same argument and the same intervals, a
+    combination contains the two sides of one interval.
     """
     keys = [_key(node) for node in nodes]
     counts: dict[object, int] = {
