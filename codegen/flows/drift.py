@@ -23,6 +23,11 @@ class Drift(Flow):
 
     velocity: tuple[Expr, ...]
 
+    @property
+    def expressions(self) -> tuple[Expr, ...]:
+        """The attribute ``velocity``."""
+        return self.velocity
+
     def advance(
         self, d: Domain, group: Coadjoint, values: Mapping[str, S], tau: S, q: Vector[S], mu: Vector[S]
     ) -> tuple[Vector[S], Vector[S]]:

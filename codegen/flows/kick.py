@@ -25,6 +25,11 @@ class Kick(Flow):
     force: tuple[Expr, ...]
     timed: bool = False
 
+    @property
+    def expressions(self) -> tuple[Expr, ...]:
+        """The attribute ``force``."""
+        return self.force
+
     def advance(
         self, d: Domain, group: Coadjoint, values: Mapping[str, S], tau: S, q: Vector[S], mu: Vector[S]
     ) -> tuple[Vector[S], Vector[S]]:

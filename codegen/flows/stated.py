@@ -24,6 +24,11 @@ class Stated(Flow):
 
     formulas: tuple[Expr, ...]
 
+    @property
+    def expressions(self) -> tuple[Expr, ...]:
+        """The attribute ``formulas``."""
+        return self.formulas
+
     def advance(
         self, d: Domain, group: Coadjoint, values: Mapping[str, S], tau: S, q: Vector[S], mu: Vector[S]
     ) -> tuple[Vector[S], Vector[S]]:

@@ -24,6 +24,7 @@ from codegen.flows.turn import Turn
 from codegen.groups.base import LieGroup
 from codegen.groups.capabilities import Coadjoint
 from codegen.groups.linear_algebra import Vector, units
+from codegen.ir.smoothness import selections
 from codegen.scene.flow import Flow
 from orderconds.ring.protocol import Element
 
@@ -52,6 +53,9 @@ def _is_form(formula: Formula, B: Matrix, w: list[Fraction], body: bool) -> bool
 
     The momentum P is Ad*_q mu if ``body`` is true, and mu otherwise.
     """
+    # The sample points need not reach all cases of a formula with selections.
+    if selections([formula.root]):
+        return False
     orbit, group = formula.orbit, formula.problem.group.require(Coadjoint)
     d = orbit.domain
     base = None

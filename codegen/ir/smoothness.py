@@ -8,6 +8,8 @@ is 1 if x > 0, and 0 otherwise.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import product
+from math import prod
 
 from codegen.ir.domain import ExprDomain
 from codegen.ir.elementary import ANGLE
@@ -23,6 +25,9 @@ A selection is a call of ``choose``, ``fabs`` or a piecewise polynomial. Each ca
 formulas, and the index is the index of the chosen formula.
 """
 
+MOST_CASES = 256
+"""The largest number of combinations of cases that are checked. Each takes about a millisecond."""
+
 
 def selections(roots: Sequence[Expr]) -> list[Expr]:
     """Return all selections (calls of ``choose``, ``fabs`` or a piecewise polynomial) in ``roots``.
@@ -30,6 +35,43 @@ def selections(roots: Sequence[Expr]) -> list[Expr]:
     If an argument of a selection contains another selection, the inner selection comes first.
     """
     return [node for node in walk(roots) if node.op == "call" and selects(node.payload)]
+
+
+def combinations(nodes: Sequence[Expr]) -> list[Sides] | None:
+    """Return all combinations of sides of the selections ``nodes``.
+
+    The result is None if there are more than :data:`MOST_CASES` combinations.
+
+    For example, abs(x), abs(-x) and choose(x, a, b) have only two combinations of sides: (1, 0, 1) for x > 0,
+    and (0, 1, 0) for x <= 0. For two piecewise polynomials with the same argument and the same intervals, a
+    combination contains the two sides of one interval.
+    """
+    keys = [_key(node) for node in nodes]
+    counts: dict[object, int] = {
+        key: len(node.payload.knots) + 1 if isinstance(node.payload, PiecewisePolynomial) else 2
+        for (key, _), node in zip(keys, nodes, strict=True)
+    }
+    if prod(counts.values()) > MOST_CASES:
+        return None
+    chosen = (dict(zip(counts, choice, strict=True)) for choice in product(*map(range, counts.values())))
+    return [tuple(1 - side[key] if flipped else side[key] for key, flipped in keys) for side in chosen]
+
+
+def _key(node: Expr) -> tuple[object, bool]:
+    """Return a key and a flag for the argument x of ``node``.
+
+    If ``node`` is the value of a table at x, the flag is False. Otherwise, x and -x have the same key, but
+    different flags.
+    """
+    x, flipped = node.args[0], False
+    if isinstance(node.payload, PiecewisePolynomial):
+        return (x.id, node.payload.knots), False
+    if x.op == "neg":
+        (x,), flipped = x.args, True
+    if x.op == "sub":
+        a, b = x.args
+        return tuple(sorted((a.id, b.id))), flipped != (a.id > b.id)
+    return x.id, flipped
 
 
 def on_sides(roots: Sequence[Expr], nodes: Sequence[Expr], sides: Sides) -> tuple[list[Expr], list[Expr]]:

@@ -1,8 +1,8 @@
 """A cache on disk for the results of measurements.
 
-Each result is stored in its own file. The key of a result contains the inputs of the measurement and the kind
-of processor, on which CPU times depend. If a file is damaged or contains a wrong type, the measurement is
-made again.
+Each result is stored in its own file. The key of a result contains the inputs of the measurement, the kind of
+processor, on which CPU times depend, and a digest of the program. If a file is damaged or contains a wrong
+type, the measurement is made again.
 """
 
 from __future__ import annotations
@@ -12,10 +12,13 @@ import os
 import platform
 import shutil
 import stat
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from functools import cache
 from pathlib import Path
 from typing import TypeVar
 
+import codegen
+import orderconds
 from codegen.cache_entry import cache_directory, write_entries
 from orderconds.input_file import MAX_WRITTEN_BYTES, content_of
 
@@ -34,12 +37,15 @@ DIGEST = 32
 class MeasurementCache:
     """A cache of results in a folder, where each result has a key. A cache without a folder stores nothing.
 
+    ``program`` identifies the program that computes the results. Results of other programs are not used. The
+    default is :func:`program_digest`.
+
     >>> MeasurementCache(None).get(("a key",), int, lambda: 3)
     3
     """
 
-    def __init__(self, folder: Path | None) -> None:
-        self.folder = folder
+    def __init__(self, folder: Path | None, program: str | None = None) -> None:
+        self.folder, self.program = folder, program
 
     def get(self, key: Sequence[object], kind: type[T], measure: Callable[[], T]) -> T:
         """Return the stored result with the key ``key``, or call ``measure`` and store its result.
@@ -92,15 +98,32 @@ class MeasurementCache:
         if self.folder is not None and _secured(self.folder):
             shutil.rmtree(self.folder, ignore_errors=True)
 
-    @staticmethod
-    def _path(folder: Path, key: Sequence[object]) -> Path:
-        text = repr((FORMAT, platform.machine(), *key))
+    def _path(self, folder: Path, key: Sequence[object]) -> Path:
+        program = program_digest() if self.program is None else self.program
+        text = repr((FORMAT, platform.machine(), program, *key))
         return folder / hashlib.sha256(text.encode()).hexdigest()[:32]
 
 
 def user_cache() -> MeasurementCache:
-    """Return the cache in the user's cache folder (:func:`codegen.cache_entry.cache_directory`)."""
-    return MeasurementCache(cache_directory() / "measurements")
+    """Return the cache in the user's cache folder (:func:`codegen.cache_entry.cache_directory`).
+
+    It contains only reference solutions. Their keys contain a digest of the modules that compute them
+    (:mod:`codegen.lab.reference`), so they remain valid if other modules change.
+    """
+    return MeasurementCache(cache_directory() / "measurements", program="")
+
+
+@cache
+def program_digest() -> str:
+    """Return a digest of the modules, templates and data of ``codegen`` and ``orderconds``."""
+    packages = (Path(str(package.__file__)).parent for package in (codegen, orderconds))
+    return files_digest(p for package in packages for p in sorted(package.rglob("*")) if p.suffix != ".pyc")
+
+
+def files_digest(files: Iterable[Path]) -> str:
+    """Return a digest of the contents of the regular files in ``files``."""
+    contents = (hashlib.sha256(path.read_bytes()).digest() for path in files if path.is_file())
+    return hashlib.sha256(b"".join(contents)).hexdigest()
 
 
 def _secured(folder: Path) -> bool:

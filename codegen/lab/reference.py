@@ -8,7 +8,6 @@ group exponential and no code of the tested integrators.
 
 from __future__ import annotations
 
-import hashlib
 import math
 import sys
 import time
@@ -22,7 +21,7 @@ from flint import arb
 from codegen.errors import SceneError
 from codegen.ir.domain import PreciseDomain
 from codegen.lab.ambient_field import ambient_field
-from codegen.lab.measurement_cache import MeasurementCache, user_cache
+from codegen.lab.measurement_cache import MeasurementCache, files_digest, user_cache
 from codegen.lab.number_types import Evaluate, Scalar, Vector
 from codegen.lab.piecewise_field import PiecewiseField, Sided
 from codegen.lab.straight_line_field import velocity
@@ -191,8 +190,7 @@ def _key(scene: Problem) -> tuple[object, ...]:
 @cache
 def _digest() -> str:
     """Return a digest of the texts of :data:`MODULES`."""
-    texts = (Path(str(sys.modules[name].__file__)).read_bytes() for name in MODULES)
-    return hashlib.sha256(b"\0".join(texts)).hexdigest()
+    return files_digest(Path(str(sys.modules[name].__file__)) for name in MODULES)
 
 
 def reference(scene: Problem, end: float = math.inf) -> Reference:

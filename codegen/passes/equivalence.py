@@ -18,6 +18,7 @@ from codegen.ir.expr import evaluate
 from codegen.ir.interpret import flatten, interpret
 from codegen.ir.program import EMBEDDED, Program
 from codegen.ir.values import Kind, Var
+from codegen.scene.orbit import variants
 from codegen.scene.problem import Problem
 
 STEPS = tuple(2.0**-k for k in (2, 3, 4, 6, 8, 10, 13, 16, 20, 24))
@@ -56,6 +57,10 @@ NOT_A_NUMBER = "differs by nan"
 
 APART = 16
 """Each step size of the reference program is at least APART times the next smaller step size."""
+
+SLOW = -16
+"""Let f be the field, and h a moderate step size. If h |f| is below about 2^SLOW, longer steps are used.
+"""
 
 LARGEST = 2.0**512
 """Upper bound for the absolute values of the results of a step.
@@ -138,13 +143,16 @@ class _Point:
 class Reference:
     """The results of the reference program after one step.
 
-    The program computes steps from two states: the initial state, and a nearby state without symmetry. From
-    each state, it tries several step sizes in decreasing order. A step size is skipped if the iterations do
-    not converge or if the results are not finite.
+    The program computes steps from two states: the initial state, and a nearby state without symmetry. At the
+    nearby state, run-time parameters do not have their default values. From each state, the program tries
+    several step sizes in decreasing order. A step size is skipped if the iterations do not converge or if the
+    results are not finite.
     """
 
     def __init__(self, program: Program, scene: Problem) -> None:
         self.scene, self.program = scene, program
+        # The key of a problem is True if steps begin near the initial state.
+        self.problems = {False: scene, True: next(iter(variants(scene)), scene)}
         self.kinds = {v.name: v.kind for v in program.inputs}
         points = [_Point(self._some(program, moved)) for moved in (False, True)]
         self.points = [point for point in points if point.computed]
@@ -156,18 +164,23 @@ class Reference:
 
         The longest step comes first.
         """
-        state = _state(self.scene, FloatDomain(0.0), moved)
-        speed = _speed(self.scene, state)
+        scene = self.problems[moved]
+        state = _state(scene, FloatDomain(0.0), moved)
+        speed = _speed(scene, state)
         inputs = {name: state[name] for name in self.kinds}
         # If the field is not finite at this state, no step can begin here.
         if not math.isfinite(speed):
             return
-        # If ``excess`` is positive, all step sizes are divided by 2**excess.
+        # All step sizes are divided by 2**excess.
         excess = math.frexp(speed * STEPS[0] / REACH)[1]
+        # Near the initial state, the state has the size 1 or more. If the field is much smaller, it would
+        # change the state by less than the tolerance AGREE in a moderate step.
+        if excess < 0 and not (moved and excess < SLOW):
+            excess = 0
         last = math.inf
         for moderate in STEPS:
             # Powers of h have no rounding errors if the step size is a power of two.
-            step = math.ldexp(moderate, -max(excess, 0))
+            step = math.ldexp(moderate, -excess)
             if step <= last / APART and (result := self._step(program, FloatDomain(step), inputs, moved)):
                 yield result
                 last = step
@@ -182,7 +195,7 @@ class Reference:
         The state is the initial state of the scene, or a nearby state if ``moved`` is True.
         """
         domain = _Bounded(h, digits)
-        state = _state(self.scene, domain, moved)
+        state = _state(self.problems[moved], domain, moved)
         return domain, {name: state[name] for name in self.kinds}
 
     def _step(
@@ -194,7 +207,7 @@ class Reference:
         solutions: dict[Var, Value] = {}
         # If the iteration does not converge, or numbers overflow, the step is too long.
         try:
-            after = self._run(program, domain, inputs, (1 + tiny) * SWEEPS, solutions)
+            after = self._run(program, moved, domain, inputs, (1 + tiny) * SWEEPS, solutions)
         except FAILURES:
             return None
         # If a rewritten program adds large terms in another order, its partial sums may overflow.
@@ -218,12 +231,14 @@ class Reference:
     def _run(
         self,
         program: Program,
+        moved: bool,
         domain: Domain,
         inputs: dict[str, Value],
         limit: int,
         solutions: dict[Var, Value],
     ) -> dict[str, Value]:
-        return interpret(program, self.scene, domain, inputs, limit=limit, newton=False, solutions=solutions)
+        scene = self.problems[moved]
+        return interpret(program, scene, domain, inputs, limit=limit, newton=False, solutions=solutions)
 
     def differs(self, program: Program) -> str:
         """Return a description of the first difference between the results of ``program`` and the reference.
@@ -255,7 +270,7 @@ class Reference:
         for step in point.results():
             # If the iterations do not converge, or numbers overflow, a shorter step is tried.
             try:
-                after = self._run(program, step.domain, step.inputs, 2 * SWEEPS, step.solutions)
+                after = self._run(program, step.moved, step.domain, step.inputs, 2 * SWEEPS, step.solutions)
             except FAILURES as error:
                 if self._is_solved(step):
                     failure = f"interpretation failed: {error}"
@@ -276,7 +291,7 @@ class Reference:
             return True
         domain, inputs = self._precise(Fraction(step.domain.h), FEW_DIGITS, step.moved)
         try:
-            self._run(self.program, domain, inputs, MORE_SWEEPS, {})
+            self._run(self.program, step.moved, domain, inputs, MORE_SWEEPS, {})
         except FAILURES:
             return False
         return True
@@ -291,7 +306,7 @@ class Reference:
         solutions: dict[Var, Value] = {}
         try:
             first, second = (
-                interpret(p, self.scene, domain, inputs, limit=SWEEPS, solutions=solutions)
+                interpret(p, self.problems[step.moved], domain, inputs, limit=SWEEPS, solutions=solutions)
                 for p in (self.program, program)
             )
         except FAILURES:
@@ -308,7 +323,9 @@ class Reference:
             return account
         domain, inputs = self._precise(Fraction(step.domain.h), FEW_DIGITS, step.moved)
         try:
-            results = [self._run(p, domain, inputs, MORE_SWEEPS, {}) for p in (self.program, program)]
+            results = [
+                self._run(p, step.moved, domain, inputs, MORE_SWEEPS, {}) for p in (self.program, program)
+            ]
         except FAILURES:
             return account
         return self._gap(_Step(domain, inputs, results[0], {}, step.moved), results[1])

@@ -199,7 +199,8 @@ def check_flow(
                     if not orbit.sized(x - y, (x, y)):
                         raise SceneError(
                             f"in the flow of {name}, the formula for {orbit.symbols[k]} is wrong: "
-                            f"{verb} {orbit.text(x)} at the time {elapsed} = {orbit.text(there[elapsed])}",
+                            f"{verb} {orbit.text(x)} at the time {elapsed} = {orbit.text(there[elapsed])}, "
+                            f"{_place(orbit, point)}",
                             where=orbit.name,
                             expected=f"{orbit.text(y)}, by the differential equations of the part {name}",
                             hint="if the part is a sum of terms whose flows do not commute, "
@@ -230,5 +231,5 @@ def check_invariants(orbit: Orbit, invariants: Mapping[str, Expr]) -> None:
 
 
 def _place(orbit: Orbit, point: dict[str, Sized]) -> str:
-    shown = [f"{s} = {orbit.text(point[s])}" for s in (*orbit.symbols[:3], TIME)]
+    shown = [f"{s} = {orbit.text(point[s])}" for s in (*orbit.symbols[:3], TIME, *orbit.changing[:3])]
     return "where " + ", ".join(shown)

@@ -15,6 +15,7 @@ from collections.abc import Mapping
 from codegen.groups.capabilities import Coadjoint
 from codegen.groups.linear_algebra import S, Vector
 from codegen.ir.domain import Domain
+from codegen.ir.expr import Expr
 
 
 class Flow(ABC):
@@ -25,6 +26,11 @@ class Flow(ABC):
     """
 
     timed: bool = False
+
+    @property
+    def expressions(self) -> tuple[Expr, ...]:
+        """The formulas that the flow evaluates. A flow that has only rational coefficients has none."""
+        return ()
 
     @abstractmethod
     def advance(

@@ -86,10 +86,16 @@ def HamiltonianScene(
         stated=system.flows(flows or {}),
     )
     check_problem(problem, stated)
-    for key, formulas in problem.stated.items():
-        rates = velocity(group, system.qs, system.mus, problem.parts[key])
-        check_flow(orbit_of(problem), key, formulas, rates, TAU)
+    check_flows(problem)
     return problem
+
+
+def check_flows(problem: Problem) -> None:
+    """Raise SceneError if a formula that the scene gives for an exact flow is wrong."""
+    for key, formulas in problem.stated.items():
+        qs, mus = (block.symbols for block in problem.state)
+        rates = velocity(problem.group, qs, mus, problem.parts[key])
+        check_flow(orbit_of(problem), key, formulas, rates, TAU)
 
 
 def _check_coordinates(name: str, coordinates: str) -> None:

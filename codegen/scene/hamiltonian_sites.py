@@ -22,8 +22,8 @@ from codegen.ir.expr import Expr
 from codegen.ir.values import Kind
 from codegen.scene.arguments import read_span
 from codegen.scene.bonds import Bond, energies_of_bonds, sum_of_energies
-from codegen.scene.canonical_equations import force
-from codegen.scene.consistency import check_problem
+from codegen.scene.canonical_equations import force, velocity
+from codegen.scene.consistency import check_equal, check_problem
 from codegen.scene.formulas import Reader
 from codegen.scene.hamiltonian_scene import phase_space_reader
 from codegen.scene.orbit import orbit_of
@@ -101,6 +101,19 @@ def _check(problem: Problem, hamiltonian: Expr) -> None:
     """Raise SceneError if the initial state is not on T*G, or if the sum of ``problem.parts`` is not H."""
     check_problem(with_frozen_neighbours(problem), {})
     _check_parts(problem, hamiltonian)
+
+
+def check_parts_of_site(problem: Problem) -> None:
+    """Raise SceneError if the fields of the parts and the forces of bonds do not add up to the field."""
+    sites, group = problem.sites, problem.group
+    if sites is None or not problem.parts:
+        return
+    qs, mus = (block.symbols for block in problem.state)
+    total = (sites.force[0].space.zero,) * group.dim + sites.force
+    for part in problem.parts.values():
+        total = tuple(a + b for a, b in zip(total, velocity(group, qs, mus, part), strict=True))
+    orbit = orbit_of(with_frozen_neighbours(problem))
+    check_equal(orbit, total, "the sum of the fields of all parts", problem.roots)
 
 
 def _offsets(name: str, bonds: Sequence[Bond]) -> tuple[Offset, ...]:

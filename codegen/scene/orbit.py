@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import random
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
@@ -17,6 +18,7 @@ from codegen.groups.base import LieGroup
 from codegen.ir.expr import Expr, evaluate
 from codegen.ir.number import Number
 from codegen.ir.rounding_domain import RoundingDomain, Sized
+from codegen.ir.smoothness import combinations, on_sides, selections
 from codegen.scene.problem import TIME, Problem
 
 DIGITS = 40
@@ -42,14 +44,19 @@ NEAR is 2, because one point is not sufficient if the force is zero at the initi
 first point can equal the initial momentum. The momentum at the second point is usually different.
 """
 
+LEAST = 1e-3
+"""If a run-time parameter is smaller than LEAST or larger than 1/LEAST, formulas are also compared for values
+of the run-time parameters between LEAST and 1 (:func:`variants`).
+"""
+
 
 @dataclass(frozen=True)
 class Orbit:
     """A problem y' = f(y).y, and sample points on the orbit of its initial state.
 
     ``symbols`` are the coordinates, ``start`` is the initial state, and ``roots`` are the components of f.
-    ``parameters`` are the values of the parameters at the initial state and near it, and ``others`` are their
-    values at all other sample points. Only the values of run-time parameters differ (:func:`varied`).
+    ``parameters`` are the default values of the parameters. Each entry of ``others`` contains other values
+    (:func:`variants`). All values of the parameters have the same sample points.
     For a Hamiltonian problem, y is (q, mu), and the group T*G acts on itself by left multiplication.
     """
 
@@ -61,7 +68,7 @@ class Orbit:
     roots: tuple[Expr, ...]
     span: tuple[Fraction, Fraction]
     parameters: Mapping[str, Number]
-    others: Mapping[str, Number]
+    others: tuple[Mapping[str, Number], ...]
 
     @cached_property
     def domain(self) -> RoundingDomain:
@@ -69,23 +76,39 @@ class Orbit:
         the rounding error of each number."""
         return RoundingDomain(0, DIGITS)
 
+    @property
+    def changing(self) -> tuple[str, ...]:
+        """The parameters whose values differ between sample points."""
+        own = self.parameters
+        return tuple(name for name in own if any(other[name] != own[name] for other in self.others))
+
     @cached_property
     def points(self) -> tuple[dict[str, Sized], ...]:
         """The values of all symbols at the initial state and at random points of its orbit.
 
         Points where f is not finite are omitted. :class:`SceneError` is raised if f is not finite at the
-        initial state.
+        initial state for the default values of the parameters.
+        """
+        points = self._around(self.parameters)
+        for values in self.others:
+            # Formulas may be undefined for other values of the parameters.
+            with suppress(SceneError):
+                points += self._around(values)
+        return tuple(points)
+
+    def _around(self, parameters: Mapping[str, Number]) -> list[dict[str, Sized]]:
+        """Return the sample points for these values of the parameters.
+
+        SceneError is raised if the initial state is not finite, or if f is not finite there.
         """
         d, rng = self.domain, random.Random("orbit")
-        constants, others = (
-            {name: d.number(x) for name, x in values.items()} for values in (self.parameters, self.others)
-        )
+        constants = {name: d.number(x) for name, x in parameters.items()}
         y0 = self._start(constants)
         points: list[dict[str, Sized]] = []
         for k in range(POINTS):
             x = tuple(d.rational(rng.randint(-99, 99), 100) for _ in range(self.group.dim))
             y = self.action.act(d, self.group, self.group.exp(d, x), y0) if k else y0
-            values = self._at(y, Fraction(k, POINTS), others if k else constants)
+            values = self._at(y, Fraction(k, POINTS), constants)
             if self._finite(self.values(self.roots, values)):
                 points.append(values)
             elif not k:
@@ -94,7 +117,7 @@ class Orbit:
                     where=self.name,
                     expected="an initial state where f is smooth",
                 )
-        return (*points, *self._near(points[0], constants, rng))
+        return [*points, *self._near(points[0], constants, rng)]
 
     def _near(
         self, start: dict[str, Sized], constants: dict[str, Sized], rng: random.Random
@@ -178,10 +201,17 @@ class Orbit:
     def vanish(self, roots: Sequence[Expr]) -> bool:
         """Return True if all formulas in ``roots`` are zero, up to rounding, at all sample points.
 
-        If a formula cannot be evaluated at one of the points, the result is False.
+        If a formula cannot be evaluated at one of the points, the result is False. A formula with selections
+        must be zero in all combinations of their cases, because the sample points need not reach all cases.
         """
-        values = [self.values(roots, point) for point in self.points]
-        return all(row is not None and all(self.sized(x) for x in row) for row in values)
+        nodes = selections(roots)
+        cases = combinations(nodes)
+        for sides in cases or ():
+            smooth = on_sides(roots, nodes, sides)[0] if nodes else roots
+            values = [self.values(smooth, point) for point in self.points]
+            if not all(row is not None and all(self.sized(x) for x in row) for row in values):
+                return False
+        return cases is not None
 
     def text(self, x: Sized) -> str:
         """Return a number as text for a message."""
@@ -194,19 +224,27 @@ def orbit_of(problem: Problem) -> Orbit:
     start = tuple(e for block in field.state for e in block.initial)
     return Orbit(
         *(field.name, field.group, field.action, field.symbols, start),
-        *(field.roots, field.span, field.parameters, varied(field).parameters),
+        *(field.roots, field.span, field.parameters, tuple(other.parameters for other in variants(field))),
     )
 
 
-def varied(problem: Problem) -> Problem:
-    """Return a copy of a problem in which each run-time parameter has another value.
+def variants(problem: Problem) -> tuple[Problem, ...]:
+    """Return copies of a problem in which each run-time parameter has another value.
+
+    The copies have no run-time parameters. Without run-time parameters, the result is empty.
 
     Emitted code must be correct for all values of the run-time parameters. For example, if the default value
     of k is 0, the formula k q^4 does not depend on q. In the copy, k is not 0, so k q^4 depends on q.
     """
-    rng, values = random.Random("parameters"), dict(problem.parameters)
-    for name in problem.runtime:
-        share, value = Number.rational(rng.randint(1, 99), 1000), values[name]
-        # A nonzero value changes by less than 10 percent, because formulas may be undefined for other values.
-        values[name] = share if value.is_zero else value - value * share
-    return replace(problem, parameters=values)
+    names, defaults = problem.runtime, problem.parameters
+    if not names:
+        return ()
+    rng = random.Random("parameters")
+    shares = {name: Number.rational(rng.randint(1, 99), 1000) for name in names}
+    # The values keep their signs and sizes, because formulas may be undefined for other values.
+    near = {name: share if (x := defaults[name]).is_zero else x - x * share for name, share in shares.items()}
+    choices = [near]
+    # With a very small or very large parameter, terms of a formula can be smaller than the tolerance.
+    if any(not LEAST <= abs(float(x)) <= 1 / LEAST for x in near.values()):
+        choices.append({name: share if float(near[name]) > 0 else -share for name, share in shares.items()})
+    return tuple(replace(problem, parameters={**defaults, **values}, runtime=()) for values in choices)

@@ -13,7 +13,10 @@ from codegen.ir.domain import FloatDomain
 from codegen.scene.problem import Problem
 
 DISPLACEMENT = 1e-4
-""":func:`reaches_orbit` moves the initial state by this distance, and then projects the moved point."""
+""":func:`reaches_orbit` moves the initial state by this distance, and then projects the moved point.
+
+The unit of all distances is the norm of the initial state, so the result does not depend on units.
+"""
 
 REDUCED = 1e-2
 """A factor in the test of :func:`reaches_orbit`.
@@ -26,11 +29,11 @@ The orbit may be curved. At the projected point, a curved orbit can deviate from
 The tolerance REDUCED * DISPLACEMENT is larger than this deviation.
 """
 
-INDEPENDENT = 1e-8
-"""The tolerance of the test whether a vector v is linearly independent of given vectors.
+INDEPENDENT, ROUNDING = 1e-8, 1e-13
+"""The tolerances of the test whether a vector v is linearly independent of given vectors.
 
 The vector v is independent if its component perpendicular to the given vectors is longer than
-INDEPENDENT * max(1, |v|).
+INDEPENDENT * |v|, and longer than ROUNDING times the largest vector.
 """
 
 
@@ -40,11 +43,12 @@ def reaches_orbit(problem: Problem) -> bool:
     start = tuple(map(float, field.initial(d)))
     tangent = _tangent(field, start)
     axes = [tuple(float(i == j) for j in range(len(start))) for i in range(len(start))]
+    distance = DISPLACEMENT * (math.hypot(*start) or 1.0)
     for normal in _orthonormal(axes, tangent):
-        moved = tuple(y + DISPLACEMENT * x for y, x in zip(start, normal, strict=True))
+        moved = tuple(y + distance * x for y, x in zip(start, normal, strict=True))
         end = field.action.to_orbit(d, field.group, moved, start)
         rest = _remainder([float(a - b) for a, b in zip(end, start, strict=True)], tangent)
-        if math.hypot(*rest) > REDUCED * DISPLACEMENT:
+        if math.hypot(*rest) > REDUCED * distance:
             return False
     return True
 
@@ -71,11 +75,12 @@ def _orthonormal(
     The vectors ``known`` must be orthonormal.
     """
     basis: list[list[float]] = []
+    largest = max((math.hypot(*vector) for vector in vectors), default=0.0)
     for vector in vectors:
         # Project twice: the second projection removes the rounding errors of the first projection.
         rest = _remainder(_remainder(vector, [*known, *basis]), [*known, *basis])
         length = math.hypot(*rest)
-        if length > INDEPENDENT * max(1.0, math.hypot(*vector)):
+        if length > max(INDEPENDENT * math.hypot(*vector), ROUNDING * largest):
             basis.append([x / length for x in rest])
     return basis
 

@@ -11,10 +11,9 @@ are checked:
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from fractions import Fraction
 from itertools import product
-from math import prod
 from typing import TYPE_CHECKING
 
 from codegen.errors import SceneError
@@ -24,16 +23,13 @@ from codegen.ir.expr import Expr
 from codegen.ir.normal_form import Monomial, NormalForms, TooLong
 from codegen.ir.rounding_domain import Sized
 from codegen.ir.selection import SELECTING
-from codegen.ir.smoothness import Sides, argument_text, on_sides, selections
+from codegen.ir.smoothness import MOST_CASES, argument_text, combinations, on_sides, selections
 from codegen.ir.table import PiecewisePolynomial
 from codegen.scene.orbit import Orbit
 from codegen.scene.problem import TIME, Problem
 
 if TYPE_CHECKING:
     import mpmath
-
-MOST_CASES = 256
-"""The largest number of combinations of cases that are checked. Each takes about a millisecond."""
 
 NEWTON_STEPS = 60
 """The largest number of Newton steps to a zero. A simple zero takes about ten steps for 40 digits."""
@@ -81,7 +77,10 @@ class _Check:
         for node in changing:
             self.check_continuous(root, node)
         nodes = selections((*self.velocity, root))
-        for sides in self.combinations(nodes):
+        cases = combinations(nodes)
+        if cases is None:
+            raise self.error(f"has more than {MOST_CASES} combinations of cases")
+        for sides in cases:
             formulas, margins = on_sides((*self.velocity, root), nodes, sides)
             if _contradictory(margins):
                 continue  # No state has this combination of cases.
@@ -100,25 +99,6 @@ class _Check:
             if not self.orbit.sized(sum(terms[1:], terms[0]), terms):
                 return False
         return True
-
-    def combinations(self, nodes: Sequence[Expr]) -> Iterator[Sides]:
-        """A combination contains one case of each operation in ``nodes``. Yield all possible combinations.
-
-        For example, abs(x), abs(-x) and choose(x, a, b) have only two combinations of cases: (x, x, a) for
-        x > 0, and (-x, -x, b) for x <= 0. A piecewise polynomial has one case for each interval. If two
-        piecewise polynomials p and q have the same argument and the same two intervals, there are only two
-        combinations: (p_1, q_1) and (p_2, q_2), where p_k and q_k are the cases of p and q on interval k.
-        """
-        keys = [_key(node) for node in nodes]
-        counts: dict[object, int] = {
-            key: len(node.payload.knots) + 1 if isinstance(node.payload, PiecewisePolynomial) else 2
-            for (key, _), node in zip(keys, nodes, strict=True)
-        }
-        if prod(counts.values()) > MOST_CASES:
-            raise self.error(f"has more than {MOST_CASES} combinations of cases")
-        for choice in product(*map(range, counts.values())):
-            side = dict(zip(counts, choice, strict=True))
-            yield tuple(1 - side[key] if flipped else side[key] for key, flipped in keys)
 
     def check_continuous(self, root: Expr, node: Expr) -> None:
         """Raise SceneError if ``root`` is discontinuous where ``node`` switches from one case to another.
@@ -226,23 +206,6 @@ def _contradictory(margins: Sequence[Expr]) -> bool:
                 if c > 0 and all(a[m] == -c * b[m] for m in a) and first + c * second <= 0:
                     return True
     return False
-
-
-def _key(node: Expr) -> tuple[object, bool]:
-    """Return a key and a flag for the argument x of ``node``.
-
-    If ``node`` is the value of a table at x, the flag is False. Otherwise, x and -x have the same key, but
-    different flags.
-    """
-    x, flipped = node.args[0], False
-    if isinstance(node.payload, PiecewisePolynomial):
-        return (x.id, node.payload.knots), False
-    if x.op == "neg":
-        (x,), flipped = x.args, True
-    if x.op == "sub":
-        a, b = x.args
-        return tuple(sorted((a.id, b.id))), flipped != (a.id > b.id)
-    return x.id, flipped
 
 
 def _joined(table: PiecewisePolynomial, k: int) -> bool:

@@ -6,20 +6,25 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from codegen.errors import SceneError
+from codegen.groups.actions import Stiefel
 from codegen.ir.number import Number
 from codegen.scene.consistency import check_problem
+from codegen.scene.hamiltonian_scene import check_flows
+from codegen.scene.hamiltonian_sites import check_parts_of_site
 from codegen.scene.problem import Problem
-from codegen.scene.site_scene import with_frozen_neighbours
+from codegen.scene.site_scene import check_sites, with_frozen_neighbours
+from codegen.scene.stiefel_scene import check_tangent
 
 
 def with_runtime(problem: Problem, names: Sequence[str]) -> Problem:
     """Return a copy of ``problem`` with other values of parameters, or with parameters as run-time inputs.
 
     An entry ``alpha`` of ``names`` makes the parameter alpha an input. An entry ``alpha=1/2`` sets alpha to
-    1/2. If ``names`` sets a value, the initial state and the invariants are checked again.
+    1/2. The initial state, the invariants, the parts and the flows of the scene are then checked again: for
+    the new values, and for further values of the inputs (:func:`codegen.scene.orbit.variants`).
 
-    :class:`SceneError` is raised for an unknown parameter, for two values of one parameter, and for a value
-    that is not a number.
+    :class:`SceneError` is raised for an unknown parameter, for two values of one parameter, for a value
+    that is not a number, and for formulas that contradict each other.
     """
     values = dict(problem.parameters)
     runtime, fixed, folded = set(problem.runtime), dict(problem.fixed), set[str]()
@@ -44,10 +49,23 @@ def with_runtime(problem: Problem, names: Sequence[str]) -> Problem:
     changed = replace(
         problem, parameters=values, runtime=tuple(sorted(runtime)), fixed=tuple(sorted(fixed.items()))
     )
-    if fixed:
-        # On a lattice, the formulas of the scene are checked at one site with fixed neighbours.
-        check_problem(changed if changed.sites is None else with_frozen_neighbours(changed), {})
+    _check(changed)
     return changed
+
+
+def _check(problem: Problem) -> None:
+    """Raise SceneError if formulas of the scene contradict each other for a value of a parameter."""
+    # Large matrices and semilinear equations have no formulas in coordinates.
+    if problem.roots:
+        # On a lattice, the formulas of the scene are checked at one site with fixed neighbours.
+        check_problem(problem if problem.sites is None else with_frozen_neighbours(problem), {})
+    check_flows(problem)
+    if problem.sites is not None:
+        check_sites(problem)
+    if problem.sites is not None and problem.paired:
+        check_parts_of_site(problem)
+    if isinstance(problem.action, Stiefel) and problem.matrices is not None:
+        check_tangent(problem, problem.matrices)
 
 
 def with_inputs(problem: Problem, names: Sequence[str]) -> Problem:

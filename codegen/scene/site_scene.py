@@ -23,7 +23,7 @@ from codegen.scene.bonds import Bond, energies_of_bonds, sum_of_energies
 from codegen.scene.consistency import check_action, check_problem
 from codegen.scene.energy import differential
 from codegen.scene.formulas import Reader
-from codegen.scene.orbit import orbit_of
+from codegen.scene.orbit import orbit_of, variants
 from codegen.scene.problem import Problem, StateField
 from codegen.scene.site_parts import Pair, check_parts, read_parts
 from codegen.scene.sites import Offset, Sites, neighbour, offset_of
@@ -101,14 +101,20 @@ def SiteScene(
 
 
 def _check(problem: Problem) -> None:
-    """Raise SceneError if a condition of :func:`check_action`, :func:`check_problem`, :func:`check_parts` or
-    :func:`_check_energy` is violated.
+    """Raise SceneError if a condition of :func:`check_action`, :func:`check_problem` or :func:`check_sites`
+    is violated.
     """
     frozen = with_frozen_neighbours(problem)
     check_action(orbit_of(frozen))
     check_problem(frozen, {})
-    check_parts(problem, orbit_of(frozen))
-    _check_energy(problem)
+    check_sites(problem)
+
+
+def check_sites(problem: Problem) -> None:
+    """Raise SceneError if the parts of the field (:func:`check_parts`) or the energy contradict the field."""
+    check_parts(problem, orbit_of(with_frozen_neighbours(problem)))
+    for one in (replace(problem, runtime=()), *variants(problem)):
+        _check_energy(one)
 
 
 def _with_energy(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from itertools import product
 from typing import TYPE_CHECKING
 
 from codegen.errors import SceneError
@@ -21,7 +22,7 @@ from codegen.scene.formulas import Reader
 from codegen.scene.matrix_field import MatrixField
 from codegen.scene.matrix_formula import MatrixFormula, Unknown
 from codegen.scene.matrix_reader import array_program
-from codegen.scene.orbit import orbit_of
+from codegen.scene.orbit import orbit_of, variants
 from codegen.scene.problem import TIME, Problem, StateField
 
 if TYPE_CHECKING:
@@ -114,8 +115,7 @@ def _roots(
 def _check(problem: Problem, field: MatrixField) -> None:
     """Test whether the initial matrix has orthonormal columns, and whether the velocity is tangent.
 
-    :class:`SceneError` is raised if a test fails. The velocity is tested at two matrices: the initial matrix
-    and the result of :func:`_elsewhere`.
+    :class:`SceneError` is raised if a test fails.
     """
     domain = FloatDomain(0.0)
     start = [float(value) for value in problem.initial(domain)]
@@ -126,8 +126,19 @@ def _check(problem: Problem, field: MatrixField) -> None:
             where=problem.name,
             expected="orthonormal columns",
         )
-    symbols = problem.scalars(domain, domain.rational(*problem.span[0].as_integer_ratio()))
-    for point in (start, _elsewhere(start, field.columns)):
+    check_tangent(problem, field)
+
+
+def check_tangent(problem: Problem, field: MatrixField) -> None:
+    """Raise SceneError if the velocity is not tangent at the initial matrix or at :func:`_elsewhere`.
+
+    The velocity is also tested for other values of run-time parameters.
+    """
+    domain = FloatDomain(0.0)
+    start = [float(value) for value in problem.initial(domain)]
+    points = start, _elsewhere(start, field.columns)
+    for one, point in product((problem, *variants(problem)), points):
+        symbols = one.scalars(domain, domain.rational(*problem.span[0].as_integer_ratio()))
         v = [float(value) for value in field.velocity(domain, point, symbols)]
         gram = _gram(point, v, field.columns)
         skew = max(abs(a + b) for a, b in zip(gram, _turned(gram, field.columns), strict=True))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 
 import pytest
-from sympy import Matrix, Rational, Symbol, cos, diag, sin
+from sympy import Matrix, Max, Rational, Symbol, cos, diag, eye, sin
 
 from codegen.flows.drift import Drift
 from codegen.flows.isotropic import Isotropic
@@ -189,3 +189,21 @@ def test_a_group_without_invariant_inner_product_has_turns_only():
     (part,) = recognise(problem)
     assert [[type(flow) for _, flow in s.flows] for s in part.summands] == [[Turn]] * 3
     assert SO3().abelian is False
+
+
+def test_a_part_that_is_a_potential_only_near_the_initial_state_has_no_kick():
+    """For p > 10, the velocity of the part is not zero. All sample points have smaller momenta."""
+    q, p = Rn(1).point("q"), Rn(1).dual("p")
+    V = q[0] ** 4 + Max(p[0] - 10, 0) ** 2
+    scene = HamiltonianScene(group=Rn(1), q=q, mu=p, H=V, parts={"V": V}, q0=[1], mu0=[0], span=(0, 1))
+    (part,) = recognise(scene)
+    assert not part.summands
+
+
+def test_a_part_that_is_quadratic_only_near_the_initial_state_has_no_turns():
+    G = SO3()
+    q, mu = G.point("q"), G.dual("mu")
+    T = mu.dot(mu) / 2 + Max(mu[0] - 10, 0) ** 3
+    scene = HamiltonianScene(group=G, q=q, mu=mu, H=T, parts={"T": T}, q0=eye(3), mu0=[1, 0, 0], span=(0, 1))
+    (part,) = recognise(scene)
+    assert not part.summands

@@ -11,8 +11,9 @@ from pathlib import Path
 import pytest
 
 from codegen import scenes
+from codegen.lab import measurement_cache
 from codegen.lab import reference as references
-from codegen.lab.measurement_cache import MeasurementCache, user_cache
+from codegen.lab.measurement_cache import MeasurementCache, files_digest, user_cache
 from codegen.lab.reference import cached_reference, reference
 from codegen.scene.run_time import with_runtime
 
@@ -183,7 +184,7 @@ def test_a_cached_reference_is_the_computed_one(cache: MeasurementCache) -> None
     assert len(entries(cache)) == 1
 
 
-def test_references_of_other_parameters_and_settings_are_other_entries(
+def test_references_of_other_parameters_and_programs_are_other_entries(
     cache: MeasurementCache, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     scene = scenes.load("driven_spin")
@@ -191,7 +192,7 @@ def test_references_of_other_parameters_and_settings_are_other_entries(
     cached_reference(scenes.load("linear_oscillator"), cache)
     cached_reference(with_runtime(scenes.load("linear_oscillator"), ("omega=2",)), cache)
     assert len(entries(cache)) == 3
-    monkeypatch.setattr(references, "RUNS", ((14, -32), (16, -36)))
+    monkeypatch.setattr(references, "_digest", lambda: "another program")
     cached_reference(scene, cache)
     assert len(entries(cache)) == 4
 
@@ -201,3 +202,23 @@ def test_the_user_s_cache_is_beside_the_compiled_modules(
 ) -> None:
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     assert user_cache().folder == tmp_path / "orderconds" / "measurements"
+
+
+def test_results_of_another_program_are_not_used(
+    cache: MeasurementCache, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    measure = Counted()
+    cache.get(("key",), Result, measure)
+    monkeypatch.setattr(measurement_cache, "program_digest", lambda: "another program")
+    cache.get(("key",), Result, measure)
+    assert measure.runs == 2
+
+
+def test_the_digest_of_the_program_depends_on_each_file(tmp_path: Path) -> None:
+    files = [tmp_path / name for name in ("a.py", "b.j2")]
+    digests = set()
+    for texts in [("x", "y"), ("xy", ""), ("x", "z"), ("y", "x")]:
+        for path, text in zip(files, texts, strict=True):
+            path.write_text(text)
+        digests.add(files_digest(files))
+    assert len(digests) == 4

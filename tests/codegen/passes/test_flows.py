@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
-from sympy import Matrix, N, Rational, diag, pi
+from sympy import Matrix, Max, N, Rational, diag, pi
 
 from codegen import scenes
 from codegen.flows.kick import Kick
@@ -114,7 +114,20 @@ def test_a_flow_that_makes_full_turns_in_a_tested_duration_does_not_commute(shar
     assert gathered == program
 
 
-def test_flows_that_commute_for_the_default_of_a_run_time_parameter_only_are_not_joined():
-    scene = anharmonic(Rational(1, 2), strength=param("k", 0))
+@pytest.mark.parametrize(("default", "power"), [(0, 1), (Rational(1, 10**25), 1), (10**25, -1)])
+def test_flows_that_commute_for_the_default_of_a_run_time_parameter_only_are_not_joined(default, power):
+    scene = anharmonic(Rational(1, 2), strength=param("k", default) ** power)
     assert flows.commuting(problem_for(scene, STRANG))("A", "V")
     assert not flows.commuting(problem_for(with_runtime(scene, ("k",)), STRANG))("A", "V")
+
+
+def test_flows_that_commute_only_near_the_initial_state_are_not_joined():
+    """The force of V is zero for q < 10. Two kicks commute everywhere."""
+    q, p = Rn(1).point("q"), Rn(1).dual("p")
+    parts = {"T": p[0] ** 2 / 2, "V": Max(q[0] - 10, 0) ** 3, "W": Max(q[0] - 20, 0) ** 3}
+    scene = HamiltonianScene(
+        group=Rn(1), q=q, mu=p, H=sum(parts.values()), parts=parts, q0=[1], mu0=[0], span=(0, 1)
+    )
+    commute = flows.commuting(problem_for(scene, STRANG))
+    assert not commute("T", "V")
+    assert commute("V", "W")

@@ -5,12 +5,14 @@ from __future__ import annotations
 import random
 
 import pytest
-from sympy import Rational, diag
+from sympy import Max, Rational, diag, eye
 
 from codegen import scenes
+from codegen.groups import SO3
 from codegen.ir.domain import PreciseDomain
 from codegen.ir.expr import evaluate, walk
 from codegen.ir.number import Number
+from codegen.scene import HamiltonianScene
 from codegen.scene.body_frame import body_field, field_in_body
 from tests.strategies import hamiltonian_scene, top_scene
 
@@ -87,3 +89,17 @@ def test_a_kinetic_energy_with_a_potential_singular_at_the_neutral_element_is_st
     singular = scene.hamiltonian + space.one / (space.sym("g22") - 1)
     made = body_field(scene.group, q, mu, singular)
     assert len(made.velocity) == 3
+
+
+@pytest.mark.parametrize(
+    "term",
+    [lambda q, P: q * P[0] * P[1] / 10**35, lambda q, P: Max(q * P[0] - 10, 0) ** 2],
+    ids=["small units", "zero at the sample points"],
+)
+def test_a_kinetic_energy_that_depends_on_the_position_is_not_split_off(term):
+    G = SO3()
+    q, mu = G.point("q"), G.dual("mu")
+    P = q.T * mu
+    H = P.dot(diag(1, 2, 3) * P) / 10**35 + term(q[0, 0], P)
+    scene = HamiltonianScene(group=G, q=q, mu=mu, H=H, q0=eye(3), mu0=[1, 2, 3], span=(0, 1))
+    assert "q00" in {str(node.payload) for node in walk(scene.body.velocity) if node.op == "sym"}

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import pytest
-from sympy import Matrix, Rational, log, symbols
+from sympy import Abs, Matrix, Max, Rational, log, sqrt, symbols
 
 from codegen.errors import SceneError
 from codegen.groups import LeftMultiplication, Rn
 from codegen.ir.number import Number
 from codegen.scene import FieldScene, param
-from codegen.scene.orbit import NEAR, POINTS, orbit_of
+from codegen.scene.orbit import LEAST, NEAR, POINTS, orbit_of
 from codegen.scene.run_time import with_runtime
 from tests.strategies import field_scene, hamiltonian_scene
 
@@ -87,3 +87,40 @@ def test_a_formula_that_vanishes_for_the_default_of_a_run_time_parameter_only_do
     )
     assert orbit_of(problem).vanish(problem.roots)
     assert not orbit_of(with_runtime(problem, ("k",))).vanish(problem.roots)
+
+
+def line(k, f=lambda x, k: k * x):
+    x = symbols("x", real=True)
+    return FieldScene(group=Rn(1), action=LeftMultiplication(), y=[x], f=[f(x, k)], y0=[0], span=(0, 1))
+
+
+@pytest.mark.parametrize("default", [Rational(1, 10**25), -Rational(1, 10**25), 10**25, -(10**25)])
+def test_very_small_and_very_large_parameters_also_have_usual_values_of_the_same_sign(default):
+    orbit = orbit_of(with_runtime(line(param("k", default)), ("k",)))
+    values = [float(point["k"].value) for point in orbit.points]
+    assert any(LEAST <= abs(k) <= 1 for k in values)
+    assert all(k * default > 0 for k in values)
+
+
+def test_a_field_that_exists_only_near_the_initial_state_is_tested_with_other_parameters_there():
+    """The field is not finite at the points that are far from the initial state."""
+    problem = line(param("k", 0), lambda x, k: k * x + sqrt(Rational(1, 10**4) - x))
+    space = problem.roots[0].space
+    product = space.sym("k") * space.sym("x")
+    assert orbit_of(problem).vanish([product])
+    assert not orbit_of(with_runtime(problem, ("k",))).vanish([product])
+
+
+def test_values_of_a_parameter_for_which_the_field_is_not_defined_are_ignored():
+    problem = line(param("k", Rational(1, 10**9)), lambda x, k: sqrt(Rational(1, 10**8) - k))
+    orbit = orbit_of(with_runtime(problem, ("k",)))
+    assert all(point["k"].value < 1e-8 for point in orbit.points)
+
+
+def test_a_formula_with_selections_vanishes_only_if_all_its_cases_vanish():
+    """The sample points are far from 10, where the case of the maximum changes."""
+    problem = line(param("k", 0), lambda x, k: Max(x - 10, 0) + Abs(x))
+    space, orbit = problem.roots[0].space, orbit_of(problem)
+    a = space.sym("x")
+    assert not orbit.vanish([space.call("choose", a - 10, a, space.zero)])
+    assert orbit.vanish([space.call("fabs", a) * space.call("fabs", -a) - a * a])
