@@ -385,11 +385,10 @@ static void dipole_vcf_cf4_count_matrix(dipole_vcf_cf4_statistics *statistics)
 }
 
 /*
- * Let d_0, ..., d_order be the coefficients of the backward difference of the given order. Let u_0 be
- * the latest stored solution, and u_k the solution k steps earlier. If first = 0 and sign = 1, compute
- * sum = d_0 u_0 + ... + d_order u_order, the backward difference. If first = 1 and sign = -1, compute
- * sum = -(d_1 u_0 + ... + d_order u_(order-1)), the value of the polynomial through u_0, ...,
- * u_(order-1) at the next step.
+ * Let 1, d_1, ..., d_order be the coefficients of the backward difference of the given order. Let u_0
+ * be the latest stored solution, and u_k the solution k steps earlier. If first = 0 and sign = 1,
+ * compute the backward difference sum = u_0 + d_1 u_1 + ... + d_order u_order. If first = 1 and sign =
+ * -1, compute the solution extrapolated to the next step, sum = -d_1 u_0 - ... - d_order u_(order-1).
  */
 static inline void dipole_vcf_cf4_difference(const struct dipole_vcf_cf4_memory *memory,
     size_t order, size_t first, double sign, double sum[static 12])
@@ -1322,7 +1321,7 @@ static inline int dipole_vcf_cf4_advance(double state[static 12], double h,
         + d_xi4_2 * w274;
     const double new_mu2 = w277 + d_xi3_0 * w278 + d_xi3_1 * w279 + d_xi4_0 * w280
         + d_xi4_1 * w281;
-    /* If the sum of all x overflows, test each x: x - x is 0 or, for infinite x, NaN. */
+    /* If the sum of all x overflows, test each x: x - x is 0 only if x is finite. */
     if (!isfinite(new_g00 + new_g01 + (new_g02 + new_g10) + (new_g11 + new_g12)
         + (new_g20 + new_g21) + (new_g22 + new_mu0) + (new_mu1 + new_mu2)) && !(new_g00
         - new_g00 + (new_g01 - new_g01) + (new_g02 - new_g02 + (new_g10 - new_g10))

@@ -322,12 +322,12 @@ def _count_matrix(statistics):
 
 
 def _difference(memory, order, first, sign, sum):
-    """Let d_0, ..., d_order be the coefficients of the backward difference of the
+    """Let 1, d_1, ..., d_order be the coefficients of the backward difference of the
     given order. Let u_0 be the latest stored solution, and u_k the solution k
-    steps earlier. If first = 0 and sign = 1, compute sum = d_0 u_0 + ... +
-    d_order u_order, the backward difference. If first = 1 and sign = -1, compute
-    sum = -(d_1 u_0 + ... + d_order u_(order-1)), the value of the polynomial
-    through u_0, ..., u_(order-1) at the next step.
+    steps earlier. If first = 0 and sign = 1, compute the backward difference sum
+    = u_0 + d_1 u_1 + ... + d_order u_order. If first = 1 and sign = -1, compute
+    the solution extrapolated to the next step, sum = -d_1 u_0 - ... - d_order
+    u_(order-1).
     """
     sum_0 = 0.0
     sum_1 = 0.0

@@ -293,11 +293,10 @@ static void dipole_vcg_triple_jump_count_matrix(dipole_vcg_triple_jump_statistic
 }
 
 /*
- * Let d_0, ..., d_order be the coefficients of the backward difference of the given order. Let u_0 be
- * the latest stored solution, and u_k the solution k steps earlier. If first = 0 and sign = 1, compute
- * sum = d_0 u_0 + ... + d_order u_order, the backward difference. If first = 1 and sign = -1, compute
- * sum = -(d_1 u_0 + ... + d_order u_(order-1)), the value of the polynomial through u_0, ...,
- * u_(order-1) at the next step.
+ * Let 1, d_1, ..., d_order be the coefficients of the backward difference of the given order. Let u_0
+ * be the latest stored solution, and u_k the solution k steps earlier. If first = 0 and sign = 1,
+ * compute the backward difference sum = u_0 + d_1 u_1 + ... + d_order u_order. If first = 1 and sign =
+ * -1, compute the solution extrapolated to the next step, sum = -d_1 u_0 - ... - d_order u_(order-1).
  */
 static inline void dipole_vcg_triple_jump_difference(const struct dipole_vcg_triple_jump_memory *memory,
     size_t order, size_t first, double sign, double sum[static 3])
@@ -565,7 +564,7 @@ static inline int dipole_vcg_triple_jump_substep(double state[static 12], double
     const double new_mu0 = s_mu_0_seen + xi1_2 * w54 * d_xi1_1 + xi1_1 * w54 * d_xi1_2;
     const double new_mu1 = s_mu_1_seen - d_xi1_0 * xe1_2 - d_xi1_2 * xe1_0;
     const double new_mu2 = s_mu_2_seen + xi1_1 * w55 * d_xi1_0 + xi1_0 * w55 * d_xi1_1;
-    /* If the sum of all x overflows, test each x: x - x is 0 or, for infinite x, NaN. */
+    /* If the sum of all x overflows, test each x: x - x is 0 only if x is finite. */
     if (!isfinite(new_g00 + new_g01 + (new_g02 + new_g10) + (new_g11 + new_g12)
         + (new_g20 + new_g21) + (new_g22 + new_mu0) + (new_mu1 + new_mu2)) && !(new_g00
         - new_g00 + (new_g01 - new_g01) + (new_g02 - new_g02 + (new_g10 - new_g10))

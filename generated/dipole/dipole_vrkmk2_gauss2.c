@@ -378,11 +378,10 @@ static void dipole_vrkmk2_gauss2_count_matrix(dipole_vrkmk2_gauss2_statistics *s
 }
 
 /*
- * Let d_0, ..., d_order be the coefficients of the backward difference of the given order. Let u_0 be
- * the latest stored solution, and u_k the solution k steps earlier. If first = 0 and sign = 1, compute
- * sum = d_0 u_0 + ... + d_order u_order, the backward difference. If first = 1 and sign = -1, compute
- * sum = -(d_1 u_0 + ... + d_order u_(order-1)), the value of the polynomial through u_0, ...,
- * u_(order-1) at the next step.
+ * Let 1, d_1, ..., d_order be the coefficients of the backward difference of the given order. Let u_0
+ * be the latest stored solution, and u_k the solution k steps earlier. If first = 0 and sign = 1,
+ * compute the backward difference sum = u_0 + d_1 u_1 + ... + d_order u_order. If first = 1 and sign =
+ * -1, compute the solution extrapolated to the next step, sum = -d_1 u_0 - ... - d_order u_(order-1).
  */
 static inline void dipole_vrkmk2_gauss2_difference(const struct dipole_vrkmk2_gauss2_memory *memory,
     size_t order, size_t first, double sign, double sum[static 6])
@@ -861,7 +860,7 @@ static inline int dipole_vrkmk2_gauss2_advance(double state[static 12], double h
     const double new_g20 = g20 * g_0 + g21 * g_3 + g22 * g_6;
     const double new_g21 = g20 * g_1 + g21 * g_4 + g22 * g_7;
     const double new_g22 = g20 * g_2 + g21 * g_5 + g22 * g_8;
-    /* If the sum of all x overflows, test each x: x - x is 0 or, for infinite x, NaN. */
+    /* If the sum of all x overflows, test each x: x - x is 0 only if x is finite. */
     if (!isfinite(new_g00 + new_g01 + (new_g02 + new_g10) + (new_g11 + new_g12)
         + (new_g20 + new_g21) + (new_g22 + w128) + (w130 + w132)) && !(new_g00 - new_g00
         + (new_g01 - new_g01) + (new_g02 - new_g02 + (new_g10 - new_g10))

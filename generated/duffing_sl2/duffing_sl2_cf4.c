@@ -220,7 +220,7 @@ static int duffing_sl2_cf4_loop(double state[static 2], double h, size_t steps,
         const double w26 = duffing_sl2_cf4_signed_stumpff1(w23);
         const double new_z0 = w21 * w24 + x_2_0 * w26 * w25;
         const double new_z1 = w22 * w26 * w21 + w24 * w25;
-        /* If the sum of all x overflows, test each x: x - x is 0 or, for infinite x, NaN. */
+        /* If the sum of all x overflows, test each x: x - x is 0 only if x is finite. */
         if (isfinite(new_z0 + new_z1) || new_z0 - new_z0 + (new_z1 - new_z1) == 0.0) {
             z0 = new_z0;
             z1 = new_z1;

@@ -232,7 +232,7 @@ static int free_rigid_body_cf4_loop(double state[static 3], double h, size_t ste
         const double new_m0 = w63 + w71 * c1_5 + (w65 * w73 - w66 * w74) * c2_5;
         const double new_m1 = w70 + w74 * c1_5 + (w66 * w71 - w64 * w73) * c2_5;
         const double new_m2 = w69 + w73 * c1_5 + (w64 * w74 - w65 * w71) * c2_5;
-        /* If the sum of all x overflows, test each x: x - x is 0 or, for infinite x, NaN. */
+        /* If the sum of all x overflows, test each x: x - x is 0 only if x is finite. */
         if (isfinite(new_m0 + new_m1 + new_m2) || new_m0 - new_m0 + (new_m1 - new_m1)
             + (new_m2 - new_m2) == 0.0) {
             m0 = new_m0;

@@ -226,7 +226,7 @@ static int free_rigid_body_cg3_loop(double state[static 3], double h, size_t ste
         const double new_m0 = w34 - w63 * c1_6 - (w57 * w65 + w58 * w66) * c2_6;
         const double new_m1 = w62 + w66 * c1_6 - (w58 * w63 + w56 * w65) * c2_6;
         const double new_m2 = w61 + w65 * c1_6 + (w56 * w66 - w57 * w63) * c2_6;
-        /* If the sum of all x overflows, test each x: x - x is 0 or, for infinite x, NaN. */
+        /* If the sum of all x overflows, test each x: x - x is 0 only if x is finite. */
         if (isfinite(new_m0 + new_m1 + new_m2) || new_m0 - new_m0 + (new_m1 - new_m1)
             + (new_m2 - new_m2) == 0.0) {
             m0 = new_m0;

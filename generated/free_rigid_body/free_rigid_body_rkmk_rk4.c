@@ -222,7 +222,7 @@ static int free_rigid_body_rkmk_rk4_loop(double state[static 3], double h, size_
         const double new_m0 = m0 + w58 * c1_4 + (w54 * w60 - w55 * w61) * c2_4;
         const double new_m1 = m1 + w61 * c1_4 + (w55 * w58 - w52 * w60) * c2_4;
         const double new_m2 = m2 + w60 * c1_4 + (w52 * w61 - w54 * w58) * c2_4;
-        /* If the sum of all x overflows, test each x: x - x is 0 or, for infinite x, NaN. */
+        /* If the sum of all x overflows, test each x: x - x is 0 only if x is finite. */
         if (isfinite(new_m0 + new_m1 + new_m2) || new_m0 - new_m0 + (new_m1 - new_m1)
             + (new_m2 - new_m2) == 0.0) {
             m0 = new_m0;

@@ -332,11 +332,10 @@ static void free_rigid_body_s3_discrete_gradient_midpoint_count_matrix(free_rigi
 }
 
 /*
- * Let d_0, ..., d_order be the coefficients of the backward difference of the given order. Let u_0 be
- * the latest stored solution, and u_k the solution k steps earlier. If first = 0 and sign = 1, compute
- * sum = d_0 u_0 + ... + d_order u_order, the backward difference. If first = 1 and sign = -1, compute
- * sum = -(d_1 u_0 + ... + d_order u_(order-1)), the value of the polynomial through u_0, ...,
- * u_(order-1) at the next step.
+ * Let 1, d_1, ..., d_order be the coefficients of the backward difference of the given order. Let u_0
+ * be the latest stored solution, and u_k the solution k steps earlier. If first = 0 and sign = 1,
+ * compute the backward difference sum = u_0 + d_1 u_1 + ... + d_order u_order. If first = 1 and sign =
+ * -1, compute the solution extrapolated to the next step, sum = -d_1 u_0 - ... - d_order u_(order-1).
  */
 static inline void free_rigid_body_s3_discrete_gradient_midpoint_difference(const struct free_rigid_body_s3_discrete_gradient_midpoint_memory *memory,
     size_t order, size_t first, double sign, double sum[static 3])
@@ -1081,7 +1080,7 @@ static inline int free_rigid_body_s3_discrete_gradient_midpoint_advance(double s
     const double Y_1_ = q3 * w475 - q2 * w476 + (q0 * w474 + q1 * c0_3);
     const double Y_2_ = q1 * w476 - q3 * w474 + (q0 * w475 + q2 * c0_3);
     const double Y_3_ = q2 * w474 - q1 * w475 + (q0 * w476 + q3 * c0_3);
-    /* If the sum of all x overflows, test each x: x - x is 0 or, for infinite x, NaN. */
+    /* If the sum of all x overflows, test each x: x - x is 0 only if x is finite. */
     if (!isfinite(Y_0_ + Y_1_ + (Y_2_ + Y_3_)) && !(Y_0_ - Y_0_ + (Y_1_ - Y_1_)
         + (Y_2_ - Y_2_ + (Y_3_ - Y_3_)) == 0.0)) {
         return FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_NOT_FINITE;

@@ -428,11 +428,10 @@ static void heavy_top_slgi_midpoint_count_matrix(heavy_top_slgi_midpoint_statist
 }
 
 /*
- * Let d_0, ..., d_order be the coefficients of the backward difference of the given order. Let u_0 be
- * the latest stored solution, and u_k the solution k steps earlier. If first = 0 and sign = 1, compute
- * sum = d_0 u_0 + ... + d_order u_order, the backward difference. If first = 1 and sign = -1, compute
- * sum = -(d_1 u_0 + ... + d_order u_(order-1)), the value of the polynomial through u_0, ...,
- * u_(order-1) at the next step.
+ * Let 1, d_1, ..., d_order be the coefficients of the backward difference of the given order. Let u_0
+ * be the latest stored solution, and u_k the solution k steps earlier. If first = 0 and sign = 1,
+ * compute the backward difference sum = u_0 + d_1 u_1 + ... + d_order u_order. If first = 1 and sign =
+ * -1, compute the solution extrapolated to the next step, sum = -d_1 u_0 - ... - d_order u_(order-1).
  */
 static inline void heavy_top_slgi_midpoint_difference(const struct heavy_top_slgi_midpoint_memory *memory,
     size_t order, size_t first, double sign, double sum[static 6])
@@ -856,7 +855,7 @@ static inline int heavy_top_slgi_midpoint_advance(double state[static 12], doubl
     const double new_g21 = g01 * g_6 + g11 * g_7 + g21 * g_8;
     const double new_g22 = g02 * g_6 + g12 * g_7 + g22 * g_8;
     const double new_mu2 = mu0 * g_6 + mu1 * g_7 + mu2 * g_8 + w118;
-    /* If the sum of all x overflows, test each x: x - x is 0 or, for infinite x, NaN. */
+    /* If the sum of all x overflows, test each x: x - x is 0 only if x is finite. */
     if (!isfinite(new_g00 + new_g01 + (new_g02 + new_g10) + (new_g11 + new_g12)
         + (new_g20 + new_g21) + (new_g22 + mu1_0) + (mu1_1 + new_mu2)) && !(new_g00 - new_g00
         + (new_g01 - new_g01) + (new_g02 - new_g02 + (new_g10 - new_g10))

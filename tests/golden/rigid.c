@@ -156,7 +156,7 @@ static int rigid_loop(double state[static 3], double h, size_t steps, double *tr
         const double new_m0 = m0 + v0 * c1_1 + (w1 * v2 - w2 * v1) * c2_1;
         const double new_m1 = m1 + v1 * c1_1 + (w2 * v0 - w0 * v2) * c2_1;
         const double new_m2 = m2 + v2 * c1_1 + (w0 * v1 - w1 * v0) * c2_1;
-        /* If the sum of all x overflows, test each x: x - x is 0 or, for infinite x, NaN. */
+        /* If the sum of all x overflows, test each x: x - x is 0 only if x is finite. */
         if (isfinite(new_m0 + new_m1 + new_m2) || new_m0 - new_m0 + (new_m1 - new_m1)
             + (new_m2 - new_m2) == 0.0) {
             m0 = new_m0;
