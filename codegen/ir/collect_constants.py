@@ -92,13 +92,12 @@ def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int,
             # Exponents are added in a product, and multiplied in a power of a power.
             exponent = sum(n for _, n in inside)
             ranks[node.id] = (inside[0][0], exponent * (node.payload or 1))
-    # ``ranks`` contains a pair for each node c y^n, where y = 1/sqrt x and c is a number. ``read`` contains
-    # this pair if c y^n is an element of the argument ``roots``, or an argument of a node of another form.
-    # For example, y^3 is an argument of the product z y^3 with a symbol z.
+    # If y^3 is computed as y^2 y, y^2 is only an intermediate result. ``read`` contains the pair (node number
+    # of y, n) of each power y^n that is used elsewhere: as a root, or in an expression such as z + y^3.
     read = {ranks[x.id] for x, by in used if x.id in ranks and (by is None or by.id not in ranks)}
-    # The powers of y are rewritten only if their exponents n in ``read`` are odd and at least 3. If ``read``
-    # contains y and y^3, for example, the quotients 1/sqrt x and 1/(x sqrt x) would need two divisions. With
-    # y^3 = y y y, one division for y is sufficient.
+    # If ``read`` contains y itself or an even power of y, no power of y is rewritten. For example, y and y^3
+    # need one division in the form y = 1/sqrt x and y^3 = y y y, but two divisions in the form 1/sqrt x and
+    # 1/(x sqrt x).
     bases = {base for base, n in read if n == 1 or n % 2 == 0}
     return {key: pair for key, pair in ranks.items() if pair[0] not in bases}
 

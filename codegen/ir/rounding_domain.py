@@ -185,7 +185,6 @@ class RoundingDomain:
                 continue
             if all(isinstance(x, self.context.mpf) and self.context.isfinite(x) for x in moved):
                 return [abs(a - b) / self._shift for a, b in zip(moved, values, strict=True)]
-        # Neither step gave finite real numbers, so there is no difference quotient. The absolute values of
-        # the results are returned instead, as if a relative error eps of the arguments caused a relative
-        # error eps of each result.
+        # Neither step gave finite real numbers, so there is no difference quotient. The numbers |f(0)| are
+        # returned as rough estimates of |f'(0)|.
         return [abs(x) for x in values]

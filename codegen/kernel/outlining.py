@@ -86,10 +86,10 @@ class Outline:
             if not chosen:
                 return None
             rewritten_roots, shapes = self._called(roots, chosen)
-            # A call reads the inputs of its tree and the parameters of its function, but one of these symbols
-            # x may be missing in ``roots``. For example, if x occurs only in x - x, ``roots`` contains 0
-            # instead. Emitted code might not define x, so trees whose calls read such a symbol are removed
-            # from ``trees``. The list becomes shorter in each repetition, so the loop ends.
+            # The new calls can read a symbol x that ``roots`` does not contain. For example, simplification
+            # replaces x - x by 0 in ``roots``, but x can still be an input of a call. Emitted code might not
+            # define x, so trees whose calls read such a symbol are removed from ``trees``. The list becomes
+            # shorter in each repetition, so the loop ends.
             added = _symbols(rewritten_roots) - _symbols(roots)
             if added:
                 trees = [

@@ -192,9 +192,9 @@ class Execution:
         """
         loaded = [f"{name}_{offset_text(self.sites.offsets[offset])}" for name in self._names(var)]
         pairs = zip(loaded, ghosts, strict=False)
-        # ``self.ghosts`` can store only one value for each name. If the value that it stores for one of the
-        # names differs from the value in the argument ``ghosts``, all components of ``var`` get new names. If
-        # ``var`` is not in ``self.given``, its components always get new names.
+        # ``self.ghosts`` can store only one value for each name in ``loaded``. If one of these names already
+        # has a different value there, all components of ``var`` get new names. If ``var`` is not in
+        # ``self.given``, its components always get new names.
         if var not in self.given or any(self.ghosts.get(s, x) is not x for s, x in pairs):
             loaded = [self._fresh(name) for name in loaded]
         self.loads |= {s: Load(s, row, offset) for s, row in zip(loaded, self.rows[var], strict=True)}

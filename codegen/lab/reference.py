@@ -68,7 +68,7 @@ UNLIKE = (
     "the Taylor polynomial of the solution is not accurate even on very short intervals; "
     "perhaps the field has no power series near this time"
 )
-"""Two reasons for which the computation of a reference solution fails, for the text of the exception.
+"""Two parts of error messages. Each part says why a reference solution cannot be computed.
 
 - ``DIVERGES``: the error estimate of the extrapolation is too large.
 - ``UNLIKE``: the result of the extrapolation differs from the value of the Taylor polynomial of the solution

@@ -263,8 +263,6 @@ class Reference:
         - the description of a failure, if ``program`` fails for all lengths, but the reference program does
           not;
         - None, if both programs fail for all lengths.
-
-        The reference program counts as failed for a length if it fails with :data:`FEW_DIGITS` digits.
         """
         failure = None
         for step in point.results():

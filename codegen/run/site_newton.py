@@ -282,9 +282,9 @@ class ChainSolver:
 
         The border contains the coefficients of the last site's unknowns in the equations of all other sites.
         """
-        # The sites of the chain are 0, ..., ``_INNER``, and ``_LAST`` is ``_INNER`` - 1. The neighbours of
-        # site ``_INNER`` are site ``_LAST`` on the left and site 0 on the right. Only the equations of these
-        # two neighbours have nonzero coefficients in the border.
+        # ``_INNER`` is the number of sites before the last site, so ``_INNER`` is also the index of the last
+        # site. The chain is periodic, so the last site has the neighbours ``_LAST`` = ``_INNER`` - 1 and 0.
+        # The border is zero except in the equations of these two sites.
         n, ends = self.n, []
         for site, block in ((whole(0), LEFT), (_LAST, RIGHT)):
             there = self.border(site, _I, _J)
@@ -306,9 +306,9 @@ class ChainSolver:
         n = self.n
         first = row_of(self.step, _J * n + self.newton.border)
         solved = For(_J, whole(n), (Call(self.name("substitute"), (_INNER, SITES, self.work, first)),))
-        # The sites of the periodic chain are 0, ..., ``_INNER``, and ``_LAST`` is ``_INNER`` - 1. The right
-        # neighbour of site ``_INNER`` is site 0, because the chain is periodic. The left neighbour is site
-        # ``_LAST``.
+        # ``_INNER`` is the number of sites before the last site, so ``_INNER`` is also the index of the last
+        # site. The left neighbour of the last site is site ``_LAST`` = ``_INNER`` - 1. The right neighbour is
+        # site 0, because the chain is periodic.
         right = self.cell(_INNER, RIGHT, _I, _K) * self.border(whole(0), _K, _J)
         left = self.cell(_INNER, LEFT, _I, _K) * self.border(_LAST, _K, _J)
         pivot = (

@@ -68,9 +68,9 @@ class _Check:
         self.symbols = (*orbit.symbols, TIME)
 
     def run(self, root: Expr) -> None:
-        # A selection is omitted from ``changing`` if its argument has the derivative zero along solutions,
-        # because the argument can then change only at a jump of another selection in ``changing``. For
-        # example, abs(choose(y, 1, -1)) is omitted, but choose(y, 1, -1) is tested at y = 0.
+        # Only selections whose arguments have a nonzero derivative along solutions are tested. For example,
+        # the argument of abs in abs(choose(y, 1, -1)) is 1 or -1, and jumps only at y = 0. There the
+        # selection choose(y, 1, -1) is tested, so abs needs no test.
         changing = [n for n in selections([root]) if not self.constant(n.args[0], self.velocity)]
         if not changing:
             return

@@ -26,11 +26,11 @@ ROUNDINGS = (3, 3, 5, 4)
 """The error of c_k(z) is at most max |c_k(z +- u) - c_k(z)| + ROUNDINGS[k] r |c_k(z)|.
 
 Here r is the unit roundoff, and u is 3/2 units in the last place of z. The first term bounds the effect of
-the rounding error of sqrt z. This error has the same effect as a change of z by at most sqrt(2) < 3/2 units
-in the last place. The second term bounds the other rounding errors to first order in r, if the errors of sine
-and cosine are at most r. For example, the error of c_1(z/4) from a sine and a division is at most
-2 r |c_1(z/4)|. The formula c_2(z) = c_1(z/4)^2/2 squares c_1(z/4). The square doubles the relative error 2 r,
-and its rounding error adds r. The sum is 5 r, so ROUNDINGS[2] is 5.
+the rounding error of sqrt z, because a change of z by u changes sqrt z by more than this rounding error.
+The second term bounds the other rounding errors to first order in r, if the errors of sine and cosine are at
+most r. For example, the error of c_1(z/4) from a sine and a division is at most 2 r |c_1(z/4)|. The formula
+c_2(z) = c_1(z/4)^2/2 squares c_1(z/4). The square doubles the relative error 2 r, and its rounding error adds
+r. The sum is 5 r, so ROUNDINGS[2] is 5.
 """
 
 SMALL, TINY = Fraction(1, 16), Fraction(1, 256)

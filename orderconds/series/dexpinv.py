@@ -133,8 +133,8 @@ class DexpinvSeries:
         """Let u be a linear combination of non-empty words. Let (v, x, w) be a word that consists of a word v
         of length ``before``, a letter x, and a word w of length ``behind``. Return the terms of the truncated
         series dexpinv_u x that can contain the word (v, x, w). A term q u^n x u^m with the coefficient q is
-        returned as the triple (q, m, n). The factors of a product and the letters of a word have opposite
-        orders: u^m, the last factor, gives v, and u^n, the first factor, gives w.
+        returned as the triple (q, m, n). A word lists the factors of a product from right to left. Therefore
+        u^m contributes the letters of v, and u^n contributes the letters of w.
 
         - If ``before`` is zero, m is zero. If ``before`` is positive, m is one of the numbers 1, ...,
           ``before``.

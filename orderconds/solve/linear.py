@@ -85,9 +85,9 @@ class Elimination:
         example, the sum of a + b = 1 and b = 2 is a + 2*b = 3 and contradicts a + 2*b = 4. The earlier
         constraints are linearly independent, so there is only one such combination.
         """
-        # The variable ``#k`` is added to the earlier constraint k. Then a linear combination of the earlier
-        # constraints is subtracted from ``constraint`` to eliminate the coefficients. If the combination
-        # contains constraint k, the variable ``#k`` is in the difference ``remaining``.
+        # The variable ``#k`` is added to the earlier constraint k. In the example above, the constraints
+        # become a + b + #0 = 1 and b + #1 = 2. They give a + 2*b = 3 - #0 - #1. Because this expression
+        # contains #0 and #1, both constraints contradict a + 2*b = 4.
         texts = {f"#{k}": x.text for k, x in enumerate(self.imposed)}
         marked = Elimination((*texts, *self.names))
         marked.impose(

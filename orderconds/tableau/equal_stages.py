@@ -1,4 +1,4 @@
-"""Equal stages of Runge-Kutta methods, and properties that do not depend on the stages of a tableau.
+"""Equal stages of Runge-Kutta methods, and tableaux that define the same method.
 
 Different tableaux can define the same method: a tableau may have stages that do not contribute to the step,
 it may contain a stage twice, and its stages have an arbitrary order. Such tableaux are called *equivalent*.

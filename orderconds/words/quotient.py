@@ -40,8 +40,8 @@ def orthogonal(generators: Sequence[Series], letters: Sequence[int], length: int
         # Each word denotes a column of a matrix. If a column is a linear combination of the columns to its
         # left, the coefficients of this linear relation are the values of a functional. ``_kernel`` returns
         # the functional as a tuple of pairs (word, value). The first pair contains the word of the dependent
-        # column. The Lyndon words are the rightmost columns, so that as many functionals as possible have a
-        # Lyndon word in the first pair.
+        # column. This word should be a Lyndon word if possible. Therefore the Lyndon words are the rightmost
+        # columns, which have the most columns to their left.
         columns = sorted(words, key=lambda word: (is_lyndon(word), word))
         rows = list(_ideal(generators, letters, length, content))
         functionals += _kernel(rows, columns)

@@ -187,8 +187,8 @@ class Bar:
 
         - ``step_seconds``, the predicted CPU time of one step, exceeds ``self.seconds``.
         - The method is implicit, and the limits accept only explicit methods (``self.explicit`` is True).
-        - e/:data:`FAR` exceeds ``self.error``. Here e is the smallest error that is predicted for methods of
-          the orders p + 1 and p + 2 with the CPU time ``self.seconds``. The number e comes from the triple
+        - Even methods of the higher orders p + 1 and p + 2 are far too inaccurate: their smallest predicted
+          error e is more than :data:`FAR` times ``self.error``. The number e comes from the triple
           (``family``, ``explicit``, e) in ``self.least``. If this triple is missing, e comes from the triple
           ('', ``explicit``, e) for all families. If both triples are missing, e is 0.
         """

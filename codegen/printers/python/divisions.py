@@ -36,7 +36,7 @@ def _hidden(function: Function) -> Iterable[Expr]:
     shown: set[Expr] = set()
     while True:
         # If an expression in ``shown`` is infinite or NaN, a result of the function is infinite or NaN, too.
-        # Each round searches the formulas that are assigned to the names in ``read`` for such expressions.
+        # If ``shown`` contains a symbol, the next round calls ``_keep`` for the formula of this symbol.
         for root in reversed([root for target, root in formulas if target is None or target in read]):
             _keep(root, shown)
         more = {str(x.payload) for x in shown if x.op == "sym"} - read
