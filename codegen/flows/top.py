@@ -53,7 +53,7 @@ def _is_form(formula: Formula, B: Matrix, w: list[Fraction], body: bool) -> bool
 
     The momentum P is Ad*_q mu if ``body`` is true, and mu otherwise.
     """
-    # The sample points need not reach all cases of a formula with selections.
+    # Perhaps the sample points do not reach all cases of a formula with selections.
     if selections([formula.root]):
         return False
     orbit, group = formula.orbit, formula.problem.group.require(Coadjoint)

@@ -43,8 +43,8 @@ def combinations(nodes: Sequence[Expr]) -> list[Sides] | None:
     The result is None if there are more than :data:`MOST_CASES` combinations.
 
     For example, abs(x), abs(-x) and choose(x, a, b) have only two combinations of sides: (1, 0, 1) for x > 0,
-    and (0, 1, 0) for x <= 0. For two piecewise polynomials with the same argument and the same intervals, a
-    combination contains the two sides of one interval.
+    and (0, 1, 0) for x <= 0. The side of a piecewise polynomial is the index of the interval that contains
+    its argument. Two piecewise polynomials with the same argument and the same intervals have equal sides.
     """
     keys = [_key(node) for node in nodes]
     counts: dict[object, int] = {

@@ -151,7 +151,7 @@ class Reference:
 
     def __init__(self, program: Program, scene: Problem) -> None:
         self.scene, self.program = scene, program
-        # The key of a problem is True if steps begin near the initial state.
+        # The key is False for steps from the initial state, and True for steps from a nearby state.
         self.problems = {False: scene, True: next(iter(variants(scene)), scene)}
         self.kinds = {v.name: v.kind for v in program.inputs}
         points = [_Point(self._some(program, moved)) for moved in (False, True)]
@@ -173,8 +173,8 @@ class Reference:
             return
         # All step sizes are divided by 2**excess.
         excess = math.frexp(speed * STEPS[0] / REACH)[1]
-        # Near the initial state, the state has the size 1 or more. If the field is much smaller, it would
-        # change the state by less than the tolerance AGREE in a moderate step.
+        # If ``moved`` is true, the size of the state is at least 1. Then a very small field would change the
+        # state by less than the tolerance AGREE in a moderate step, so longer steps are used.
         if excess < 0 and not (moved and excess < SLOW):
             excess = 0
         last = math.inf

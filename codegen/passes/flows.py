@@ -165,7 +165,8 @@ def commuting(scene: Problem) -> Callable[[str, str], bool]:
     @cache
     def same(a: str, b: str) -> bool:
         one, two = scene.flows[a], scene.flows[b]
-        # The sample points need not reach all cases of a formula with selections. Two kicks commute.
+        # Perhaps the sample points do not reach all cases of a formula with selections, so the answer is
+        # False. This does not matter for two kicks, because they always commute.
         trivial = isinstance(one, Kick) and isinstance(two, Kick)
         if not trivial and selections((*one.expressions, *two.expressions)):
             return False

@@ -55,7 +55,7 @@ from codegen.run.terms import (
     whole,
 )
 
-_INNER, _LAST, _BASE, _FIRST = count("inner"), count("last"), count("base"), count("first")
+_INNER, _BEFORE, _BASE, _FIRST = count("inner"), count("last"), count("base"), count("first")
 _SITE, _I, _J, _K, _SUM = count("site"), count("i"), count("j"), count("k"), real("sum")
 _REGULAR, _ENTRY = count("regular"), count("entry")
 # The order of the three blocks of a site in memory.
@@ -282,11 +282,11 @@ class ChainSolver:
 
         The border contains the coefficients of the last site's unknowns in the equations of all other sites.
         """
-        # ``_INNER`` is the number of sites before the last site, so ``_INNER`` is also the index of the last
-        # site. The chain is periodic, so the last site has the neighbours ``_LAST`` = ``_INNER`` - 1 and 0.
-        # The border is zero except in the equations of these two sites.
+        # The sites are 0, 1, ..., ``_INNER``. The chain is periodic, so the neighbours of site ``_INNER`` are
+        # the sites ``_BEFORE`` = ``_INNER`` - 1 and 0. Only their equations contain the unknowns of site
+        # ``_INNER``, so the border is zero in all other equations.
         n, ends = self.n, []
-        for site, block in ((whole(0), LEFT), (_LAST, RIGHT)):
+        for site, block in ((whole(0), LEFT), (_BEFORE, RIGHT)):
             there = self.border(site, _I, _J)
             # In a periodic chain of two sites, the last site is both neighbours of site 0, the left one and
             # the right one. Then two coefficients belong to the same entry ``there``. They are added, because
@@ -294,7 +294,7 @@ class ChainSolver:
             ends.append(self.both((Assign(there, there + self.cell(site, block, _I, _J)),)))
         place = count("place")
         zero = Assign(self.work[self.row(self.newton.border) + place], number(0.0))
-        return [Assign(_LAST, _INNER - 1), For(place, n * n * STRIDE, (zero,)), *ends]
+        return [Assign(_BEFORE, _INNER - 1), For(place, n * n * STRIDE, (zero,)), *ends]
 
     def border_pivot(self, diagonal: Term, invert: Call, tested: If) -> list[Statement]:
         """Return the statements that compute and invert the pivot block of the last site.
@@ -306,11 +306,10 @@ class ChainSolver:
         n = self.n
         first = row_of(self.step, _J * n + self.newton.border)
         solved = For(_J, whole(n), (Call(self.name("substitute"), (_INNER, SITES, self.work, first)),))
-        # ``_INNER`` is the number of sites before the last site, so ``_INNER`` is also the index of the last
-        # site. The left neighbour of the last site is site ``_LAST`` = ``_INNER`` - 1. The right neighbour is
-        # site 0, because the chain is periodic.
+        # The sites are 0, 1, ..., ``_INNER``. The left neighbour of site ``_INNER`` is site ``_BEFORE``. The
+        # right neighbour is site 0, because the chain is periodic.
         right = self.cell(_INNER, RIGHT, _I, _K) * self.border(whole(0), _K, _J)
-        left = self.cell(_INNER, LEFT, _I, _K) * self.border(_LAST, _K, _J)
+        left = self.cell(_INNER, LEFT, _I, _K) * self.border(_BEFORE, _K, _J)
         pivot = (
             Assign(_SUM, self.cell(_INNER, OWN_BLOCK, _I, _J)),
             *self.dot(right),
@@ -372,7 +371,7 @@ class ChainSolver:
         rest = (
             Assign(_SUM, x(_INNER, _I)),
             *self.dot(self.cell(_INNER, RIGHT, _I, _K) * x(whole(0), _K)),
-            *self.dot(self.cell(_INNER, LEFT, _I, _K) * x(_LAST, _K)),
+            *self.dot(self.cell(_INNER, LEFT, _I, _K) * x(_BEFORE, _K)),
             Assign(value[_I], _SUM),
         )
         own_block = (
@@ -387,7 +386,7 @@ class ChainSolver:
             Assign(x(_SITE, _I), _SUM),
         )
         return [
-            Assign(_LAST, _INNER - 1),
+            Assign(_BEFORE, _INNER - 1),
             Array(value),
             For(_I, whole(n), rest),
             For(_I, whole(n), own_block),

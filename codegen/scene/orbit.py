@@ -56,7 +56,7 @@ class Orbit:
 
     ``symbols`` are the coordinates, ``start`` is the initial state, and ``roots`` are the components of f.
     ``parameters`` are the default values of the parameters. Each entry of ``others`` contains other values
-    (:func:`variants`). All values of the parameters have the same sample points.
+    (:func:`variants`).
     For a Hamiltonian problem, y is (q, mu), and the group T*G acts on itself by left multiplication.
     """
 
@@ -229,9 +229,9 @@ def orbit_of(problem: Problem) -> Orbit:
 
 
 def variants(problem: Problem) -> tuple[Problem, ...]:
-    """Return copies of a problem in which each run-time parameter has another value.
+    """Return copies of a problem in which each run-time parameter has another value, which is fixed.
 
-    The copies have no run-time parameters. Without run-time parameters, the result is empty.
+    If the problem has no run-time parameters, the result is empty.
 
     Emitted code must be correct for all values of the run-time parameters. For example, if the default value
     of k is 0, the formula k q^4 does not depend on q. In the copy, k is not 0, so k q^4 depends on q.
@@ -241,7 +241,8 @@ def variants(problem: Problem) -> tuple[Problem, ...]:
         return ()
     rng = random.Random("parameters")
     shares = {name: Number.rational(rng.randint(1, 99), 1000) for name in names}
-    # The values keep their signs and sizes, because formulas may be undefined for other values.
+    # A value that is not zero changes by less than 10 percent, because formulas may be undefined for values
+    # with another sign or of another size.
     near = {name: share if (x := defaults[name]).is_zero else x - x * share for name, share in shares.items()}
     choices = [near]
     # With a very small or very large parameter, terms of a formula can be smaller than the tolerance.

@@ -132,9 +132,9 @@ class DexpinvSeries:
     def _present(self, before: int, behind: int) -> list[tuple[Element, int, int]]:
         """Let u be a linear combination of non-empty words. Let (v, x, w) be a word that consists of a word v
         of length ``before``, a letter x, and a word w of length ``behind``. Return the terms of the truncated
-        series dexpinv_u x that can contain the word (v, x, w). A term q u^n x u^m with the coefficient q is
-        returned as the triple (q, m, n). A word lists the factors of a product from right to left. Therefore
-        u^m contributes the letters of v, and u^n contributes the letters of w.
+        series dexpinv_u x that can contain the word (v, x, w). A word lists the factors of a product from
+        right to left. Therefore a term q u^n x u^m can contain the word (v, x, w) if u^m contains v and u^n
+        contains w. The method returns the triple (q, m, n) for this term, where q is the coefficient.
 
         - If ``before`` is zero, m is zero. If ``before`` is positive, m is one of the numbers 1, ...,
           ``before``.

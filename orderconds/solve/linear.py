@@ -87,7 +87,7 @@ class Elimination:
         """
         # The variable ``#k`` is added to the earlier constraint k. In the example above, the constraints
         # become a + b + #0 = 1 and b + #1 = 2. They give a + 2*b = 3 - #0 - #1. Because this expression
-        # contains #0 and #1, both constraints contradict a + 2*b = 4.
+        # contains #0 and #1, the constraints 0 and 1 together contradict a + 2*b = 4.
         texts = {f"#{k}": x.text for k, x in enumerate(self.imposed)}
         marked = Elimination((*texts, *self.names))
         marked.impose(

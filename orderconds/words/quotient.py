@@ -37,11 +37,9 @@ def orthogonal(generators: Sequence[Series], letters: Sequence[int], length: int
     """
     functionals: list[Functional] = []
     for content, words in sorted(_by_content(letters, length).items()):
-        # Each word denotes a column of a matrix. If a column is a linear combination of the columns to its
-        # left, the coefficients of this linear relation are the values of a functional. ``_kernel`` returns
-        # the functional as a tuple of pairs (word, value). The first pair contains the word of the dependent
-        # column. This word should be a Lyndon word if possible. Therefore the Lyndon words are the rightmost
-        # columns, which have the most columns to their left.
+        # Each word denotes a column of a matrix. Each column that is a linear combination of the columns to
+        # its left gives a functional whose first word is the word of this column. This word should be a
+        # Lyndon word if possible, so the Lyndon words denote the rightmost columns.
         columns = sorted(words, key=lambda word: (is_lyndon(word), word))
         rows = list(_ideal(generators, letters, length, content))
         functionals += _kernel(rows, columns)

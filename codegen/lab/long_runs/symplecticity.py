@@ -185,8 +185,8 @@ def _scales(
 
     - The scale of coordinate k of xi is s_k = min_b |q_b|/|v_b|. Blocks with q_b = 0 or v_b = 0 are omitted.
     - The scale ``action`` is max_k s_k m_k. If this maximum is zero, ``action`` is max_k s_k times max_k m_k.
-    - If no block remains in the minimum for s_k, s_k is set to ``action``/m_k if m_k is not zero, otherwise
-      to the largest of the other scales s_j. The maxima above are computed without this s_k.
+    - If all blocks are omitted for a coordinate k, the maxima above are computed without this k. Then s_k is
+      ``action``/m_k for m_k > 0, and the largest of the other scales for m_k = 0.
 
     The norms |q_b|, |v_b| and m_k are computed before and after the step. For each norm, the larger of the
     two values is used, because q or mu can be zero before or after the step.
