@@ -1,8 +1,8 @@
 """A cache on disk for the results of measurements.
 
 Each result is stored in its own file. The key of a result contains the inputs of the measurement, the kind of
-processor, and a digest of the program. CPU times depend on the kind of processor. If a file is damaged or contains a wrong
-type, the measurement is made again.
+processor, and a digest of the program. CPU times depend on the kind of processor. If a file is damaged or
+contains a wrong type, the measurement is made again.
 """
 
 from __future__ import annotations

@@ -1,7 +1,8 @@
 """Equal stages of Runge-Kutta methods, and tableaux that define the same method.
 
 Different tableaux can define the same method: a tableau may have stages that do not contribute to the step,
-it may contain a stage twice, and its stages can be numbered differently. Such tableaux are called *equivalent*.
+it may contain a stage twice, and its stages can be numbered differently. Such tableaux are called
+*equivalent*.
 A partition of the stages into classes is called admissible here if, for any two stages i and k of the same
 class, sum_{j in C} a_ij = sum_{j in C} a_kj for every class C. Two stages are equal for every vector field if
 and only if they are in the same class of the coarsest admissible partition.
