@@ -33,7 +33,6 @@ if TYPE_CHECKING:
 @click.option("--output", "-o", type=FOLDER, metavar="DIR", help="The folder to write to.")
 @click.option(
     "--prefix",
-    default="",
     help="Prefix of every external name in the emitted code. The default consists of the names of the scene "
     "and the method.",
 )
@@ -83,8 +82,8 @@ if TYPE_CHECKING:
     type=click.IntRange(0),
     default=0,
     metavar="N",
-    help="The number of event functions. This option implies --integrate: the function that integrates to a "
-    "given end time also finds zeros of the event functions.",
+    help="The number of event functions, by default 0. A positive number implies --integrate: the function "
+    "that integrates to a given end time also finds zeros of the event functions.",
 )
 @click.option(
     "--compensate",
@@ -113,7 +112,7 @@ def command(
     method: str,
     targets: tuple[str, ...],
     output: str | None,
-    prefix: str,
+    prefix: str | None,
     parameters: tuple[str, ...],
     inputs: tuple[str, ...],
     frame: str,
@@ -144,11 +143,14 @@ def command(
     """
     from codegen.command_names import bare
     from codegen.emitter import compile_method, emit_compiled, with_batch
+    from codegen.prefix import prefix_of
     from codegen.printers import DEFAULT
 
     if output is None and not (explain or as_json):
         raise click.UsageError("-o DIR is missing; give -o DIR, --explain or --json")
     _require_known(targets, precision)
+    if prefix is not None:
+        prefix_of(prefix)
     options = {"solver": solver, "form": form}
     compiled = compile_method(
         scene, method, parameters, inputs, frame, adaptive, jacobian=jacobian, **options, **run
@@ -161,7 +163,8 @@ def command(
     if explain and not as_json:
         click.echo(explanation(compiled))
     artifacts = [
-        emit_compiled(compiled, name, prefix, named, precision=precision) for name in targets or (DEFAULT,)
+        emit_compiled(compiled, name, prefix or "", named, precision=precision)
+        for name in targets or (DEFAULT,)
     ]
     more = explained(compiled) if explain and as_json else {}
     if explain and compiled.kernel.sites is not None:

@@ -68,6 +68,10 @@ def check(
     wanted = [*_wanted(tableau, family)]
     proof, broken = _proof(tableau)
     enclosed, facts = (proof.tableau, proof.facts) if proof else (tableau, ())
+    wanted, strangers = (
+        _members(tableau, wanted) if family is None and tableau.claims.orders else (wanted, [])
+    )
+    broken += strangers
     embedded = _embedded(enclosed, [f for f, _ in wanted], proof.lower_facts if proof else ())
     computed, dense = properties(tableau), extension_order(tableau)
     if family is None:
@@ -375,6 +379,29 @@ def _wanted(tableau: Tableau, family: str | None) -> Iterator[tuple[Family, int 
         yield _claimed(tableau, label), order
     if not claims:
         yield families.get(tableau.family).for_method(tableau.method), None
+
+
+def _members(
+    tableau: Tableau, wanted: Sequence[tuple[Family, int | None]]
+) -> tuple[list[tuple[Family, int | None]], list[str]]:
+    """Return the entries of ``wanted`` whose families accept the method, and messages about the others.
+
+    A claim in a family to which the method does not belong is wrong, although the file is valid.
+    """
+    members, messages = [], []
+    for family, claimed in wanted:
+        method = family.read(tableau)
+        try:
+            if method is not None:
+                family.require(method, tableau.ring)
+        except InputError as problem:
+            messages.append(
+                f"{family.label()}: the method is not in this family, because {problem.found}; "
+                f"expected {problem.expected}"
+            )
+        else:
+            members.append((family, claimed))
+    return members, messages
 
 
 def _claimed(tableau: Tableau, label: str) -> Family:

@@ -340,7 +340,8 @@ def converge(
         return result
     short = order_of_short_steps(runner.compiled, stated.order, 0.0 if visible else spread)
     result = replace(result, refinement=replace(refinement, short=short))
-    higher = result.verdict == "fails" and result.observed > stated.order
+    observed = result.observed
+    higher = result.verdict == "fails" and observed is not None and observed > stated.order
     return replace(result, derived=derived_order(runner.compiled)) if higher else result
 
 
