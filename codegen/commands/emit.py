@@ -42,7 +42,7 @@ if TYPE_CHECKING:
     "parameters",
     multiple=True,
     help="A parameter of the scene. With NAME, the parameter becomes a run-time argument. With NAME=VALUE, "
-    "the parameter becomes a constant.",
+    "the parameter becomes a constant. With both, VALUE is the default of the run-time argument.",
 )
 @click.option("--input", "inputs", multiple=True, help="Make this signal of the scene a run-time input.")
 @click.option("--frame", default="space", help="Frame of momenta: space (the default) or body.")
@@ -143,14 +143,11 @@ def command(
     """
     from codegen.command_names import bare
     from codegen.emitter import compile_method, emit_compiled, with_batch
-    from codegen.prefix import prefix_of
     from codegen.printers import DEFAULT
 
     if output is None and not (explain or as_json):
         raise click.UsageError("-o DIR is missing; give -o DIR, --explain or --json")
-    _require_known(targets, precision)
-    if prefix is not None:
-        prefix_of(prefix)
+    _require_known(targets, precision, prefix)
     options = {"solver": solver, "form": form}
     compiled = compile_method(
         scene, method, parameters, inputs, frame, adaptive, jacobian=jacobian, **options, **run
@@ -163,8 +160,7 @@ def command(
     if explain and not as_json:
         click.echo(explanation(compiled))
     artifacts = [
-        emit_compiled(compiled, name, prefix or "", named, precision=precision)
-        for name in targets or (DEFAULT,)
+        emit_compiled(compiled, t, prefix or "", named, precision=precision) for t in targets or (DEFAULT,)
     ]
     more = explained(compiled) if explain and as_json else {}
     if explain and compiled.kernel.sites is not None:
@@ -210,14 +206,17 @@ def _write(
         screen.print_json(records)
 
 
-def _require_known(targets: tuple[str, ...], precision: str) -> None:
-    """Raise UnknownName for an unknown target or precision."""
+def _require_known(targets: tuple[str, ...], precision: str, prefix: str | None) -> None:
+    """Raise UnknownName for an unknown target or precision, and InputError for a prefix that is no name."""
     from codegen.ir.precision import precision as known_precision
+    from codegen.prefix import prefix_of
     from codegen.printers import target as known_target
 
     for name in targets:
         known_target(name)
     known_precision(precision)
+    if prefix is not None:
+        prefix_of(prefix)
 
 
 def explained(compiled: Compiled) -> dict[str, object]:

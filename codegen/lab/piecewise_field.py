@@ -121,9 +121,9 @@ class PiecewiseField:
         """Return the cases of operations such as abs(x), for example x > 0, just after the time t.
 
         The result contains one case for each operation with several cases. The state just after t is computed
-        by a short Euler step from y with the derivative ``flow(y, t)``. If this state is on a boundary between
-        two cases, a longer step of the midpoint rule replaces the Euler step. By default, ``flow`` is the
-        field of the scene.
+        by a short Euler step from y with the derivative ``flow(y, t)``. If this state is on a boundary
+        between two cases, a longer step of the midpoint rule replaces the Euler step. By default, ``flow`` is
+        the field of the scene.
         """
         whole = straight_line(self.scene.name, self.scene.symbols, self.roots).python(ball, FUNCTIONS)
         slope = whole if flow is None else flow

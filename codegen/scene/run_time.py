@@ -16,10 +16,10 @@ def with_runtime(problem: Problem, names: Sequence[str]) -> Problem:
     """Return a copy of ``problem`` with other values of parameters, or with parameters as run-time inputs.
 
     An entry ``alpha`` of ``names`` makes the parameter alpha an input. An entry ``alpha=1/2`` sets alpha to
-    1/2. If ``names`` sets a value, the initial state and the invariants are checked again.
+    1/2. With both entries, 1/2 is the default value of the input. If ``names`` sets a value, the initial state and the invariants are checked again.
 
-    :class:`SceneError` is raised for an unknown parameter, for two values of one parameter, for a parameter
-    that is both an input and a constant, and for a value that is not a number.
+    :class:`SceneError` is raised for an unknown parameter, for two values of one parameter, and for a value
+    that is not a number.
     """
     values = dict(problem.parameters)
     runtime, fixed, folded = set(problem.runtime), dict(problem.fixed), set[str]()
@@ -41,13 +41,6 @@ def with_runtime(problem: Problem, names: Sequence[str]) -> Problem:
             ) from None
         folded.add(name)
         fixed[name] = values[name].text()
-    both = sorted(folded.intersection(names))
-    if both:
-        raise SceneError(
-            f"{both[0]} and {both[0]}={values[both[0]].text()}",
-            where=problem.name,
-            expected=f"the parameter {both[0]} either as a run-time argument or as a constant",
-        )
     changed = replace(
         problem, parameters=values, runtime=tuple(sorted(runtime)), fixed=tuple(sorted(fixed.items()))
     )

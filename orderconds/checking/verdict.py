@@ -65,17 +65,13 @@ def check(
     order, tolerance = _bounds(order, tolerance, limits)
     tableau = tableau if isinstance(tableau, Tableau) else read(tableau)
     given, tableau = tableau, with_tolerance(tableau, tolerance)
-    wanted = [*_wanted(tableau, family)]
+    wanted, outside = _members(tableau, family)
     proof, broken = _proof(tableau)
     enclosed, facts = (proof.tableau, proof.facts) if proof else (tableau, ())
-    wanted, strangers = (
-        _members(tableau, wanted) if family is None and tableau.claims.orders else (wanted, [])
-    )
-    broken += strangers
     embedded = _embedded(enclosed, [f for f, _ in wanted], proof.lower_facts if proof else ())
     computed, dense = properties(tableau), extension_order(tableau)
     if family is None:
-        broken += (*_broken_claims(tableau, computed, embedded), *_broken_extension(dense))
+        broken += (*outside, *_broken_claims(tableau, computed, embedded), *_broken_extension(dense))
     broken += _missing_claims(enclosed, tableau) if complete else []
     orders = _named(_orders(enclosed, wanted, facts, order, Meter(limits or Limits())), tableau)
     broken += [f"{f.family}: certificate {f.certificate}" for f in _not_proved(orders) if certified]
@@ -381,26 +377,27 @@ def _wanted(tableau: Tableau, family: str | None) -> Iterator[tuple[Family, int 
         yield families.get(tableau.family).for_method(tableau.method), None
 
 
-def _members(
-    tableau: Tableau, wanted: Sequence[tuple[Family, int | None]]
-) -> tuple[list[tuple[Family, int | None]], list[str]]:
-    """Return the entries of ``wanted`` whose families accept the method, and messages about the others.
+def _members(tableau: Tableau, family: str | None) -> tuple[list[tuple[Family, int | None]], list[str]]:
+    """Return pairs (family to check, claimed order), and a message for each claim without such a pair.
 
     A claim in a family to which the method does not belong is wrong, although the file is valid.
     """
+    wanted = [*_wanted(tableau, family)]
+    if family is not None or not tableau.claims.orders:
+        return wanted, []
     members, messages = [], []
-    for family, claimed in wanted:
-        method = family.read(tableau)
+    for member, claimed in wanted:
+        method = member.read(tableau)
         try:
             if method is not None:
-                family.require(method, tableau.ring)
+                member.require(method, tableau.ring)
         except InputError as problem:
             messages.append(
-                f"{family.label()}: the method is not in this family, because {problem.found}; "
+                f"{member.label()}: the method is not in this family, because {problem.found}; "
                 f"expected {problem.expected}"
             )
         else:
-            members.append((family, claimed))
+            members.append((member, claimed))
     return members, messages
 
 

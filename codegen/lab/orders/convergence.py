@@ -17,8 +17,8 @@ from codegen.emitter import Optimised
 from codegen.errors import MethodError
 from codegen.ir.domain import PreciseDomain
 from codegen.lab.distance import distance
-from codegen.lab.orders.end_kinks import end_limits, undefined_beyond
 from codegen.lab.number_types import Vector
+from codegen.lab.orders.end_kinks import end_limits, undefined_beyond
 from codegen.lab.orders.run_noise import LATE, Noise
 from codegen.lab.orders.short_steps import order_of_short_steps
 from codegen.lab.orders.step_sizes import CLEAR, TOLERANCE, Places, Refinement, Run, refine
@@ -204,8 +204,8 @@ class Convergence:
         for step, place, bound in zip(("first", "last"), ("start", "end"), self.ends, strict=True):
             if bound < self.stated.order:
                 reasons.append(
-                    f"the {step} step evaluates the field at or beyond the {place} of the solution, where the "
-                    "field is not smooth"
+                    f"the {step} step evaluates the field at or beyond the {place} of the solution, where "
+                    "the field is not smooth"
                 )
         return (
             f"{', and '.join(reasons)}; therefore runs with equal steps have at most order {self.limit}"
@@ -244,8 +244,8 @@ class Convergence:
         if self.kinks:
             return (
                 f"the slopes have not settled; the solution crosses {self._places()} where the field is not "
-                "smooth, and the error depends on the position of such a point in its step; choose numbers of "
-                "steps with which a step ends at each of these points"
+                "smooth, and the error depends on the position of such a point in its step; choose numbers "
+                "of steps with which a step ends at each of these points"
             )
         if any(r.excluded == ROUNDING for r in self.refinement.runs):
             return "rounding dominates before the slopes settle; use --target interpreter --digits 40"

@@ -231,11 +231,6 @@ class TestParameters:
         with pytest.raises(SceneError, match="two values of the parameter a; expected one value"):
             with_runtime(sphere(f=param("a", 3) * y), ["a=1", "a=2"])
 
-    @pytest.mark.parametrize("names", [["a", "a=1"], ["a=1", "a"]])
-    def test_are_inputs_or_constants_but_not_both(self, names):
-        with pytest.raises(SceneError, match="a and a=1; expected the parameter a either as"):
-            with_runtime(sphere(f=param("a", 3) * y), names)
-
     def test_of_one_scene_mean_nothing_in_another(self):
         sphere(f=param("leaked", 3) * y)
         with pytest.raises(SceneError, match="the symbol leaked in"):

@@ -32,8 +32,10 @@ def planar(f: list[Expr], start: object = (1, 0.3), span: object = (0, 1)) -> Pr
 @pytest.mark.parametrize("method", [BOTH, ABOVE])
 @pytest.mark.parametrize(
     ("span", "name", "bounds"),
-    [((0, 1), "first step evaluates the field at or beyond the start", (2, math.inf))]
-    + [((1, 2), "last step evaluates the field at or beyond the end", (math.inf, 2))],
+    [
+        ((0, 1), "first step evaluates the field at or beyond the start", (2, math.inf)),
+        ((1, 2), "last step evaluates the field at or beyond the end", (math.inf, 2)),
+    ],
 )
 def test_a_kink_at_an_end_that_a_stage_crosses_leaves_the_order_undecided(
     span: tuple[int, int], name: str, bounds: tuple[float, float], method: str
