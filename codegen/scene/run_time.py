@@ -16,7 +16,8 @@ def with_runtime(problem: Problem, names: Sequence[str]) -> Problem:
     """Return a copy of ``problem`` with other values of parameters, or with parameters as run-time inputs.
 
     An entry ``alpha`` of ``names`` makes the parameter alpha an input. An entry ``alpha=1/2`` sets alpha to
-    1/2. With both entries, 1/2 is the default value of the input. If ``names`` sets a value, the initial state and the invariants are checked again.
+    1/2. With both entries, 1/2 is the default value of the input. If ``names`` sets a value, the initial
+    state and the invariants are checked again.
 
     :class:`SceneError` is raised for an unknown parameter, for two values of one parameter, and for a value
     that is not a number.
