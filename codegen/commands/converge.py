@@ -64,7 +64,8 @@ def command(
     file, if the file gives one.
 
     The exit status is 1 if an observed order differs from the stated order or is undecided, or if a method
-    cannot be emitted.
+    cannot be emitted. A method can converge faster on one scene than on others: a higher observed order is
+    accepted if the order conditions give the stated order.
 
     \b
     Examples:

@@ -33,7 +33,6 @@ if TYPE_CHECKING:
 @click.option("--output", "-o", type=FOLDER, metavar="DIR", help="The folder to write to.")
 @click.option(
     "--prefix",
-    default="",
     help="Prefix of every external name in the emitted code. The default consists of the names of the scene "
     "and the method.",
 )
@@ -43,7 +42,7 @@ if TYPE_CHECKING:
     "parameters",
     multiple=True,
     help="A parameter of the scene. With NAME, the parameter becomes a run-time argument. With NAME=VALUE, "
-    "the parameter becomes a constant.",
+    "the parameter becomes a constant. With both, VALUE is the default of the run-time argument.",
 )
 @click.option("--input", "inputs", multiple=True, help="Make this signal of the scene a run-time input.")
 @click.option("--frame", default="space", help="Frame of momenta: space (the default) or body.")
@@ -83,8 +82,8 @@ if TYPE_CHECKING:
     type=click.IntRange(0),
     default=0,
     metavar="N",
-    help="The number of event functions. This option implies --integrate: the function that integrates to a "
-    "given end time also finds zeros of the event functions.",
+    help="The number of event functions, by default 0. A positive number implies --integrate: the function "
+    "that integrates to a given end time also finds zeros of the event functions.",
 )
 @click.option(
     "--compensate",
@@ -113,7 +112,7 @@ def command(
     method: str,
     targets: tuple[str, ...],
     output: str | None,
-    prefix: str,
+    prefix: str | None,
     parameters: tuple[str, ...],
     inputs: tuple[str, ...],
     frame: str,
@@ -148,7 +147,7 @@ def command(
 
     if output is None and not (explain or as_json):
         raise click.UsageError("-o DIR is missing; give -o DIR, --explain or --json")
-    _require_known(targets, precision)
+    _require_known(targets, precision, prefix)
     options = {"solver": solver, "form": form}
     compiled = compile_method(
         scene, method, parameters, inputs, frame, adaptive, jacobian=jacobian, **options, **run
@@ -161,7 +160,7 @@ def command(
     if explain and not as_json:
         click.echo(explanation(compiled))
     artifacts = [
-        emit_compiled(compiled, name, prefix, named, precision=precision) for name in targets or (DEFAULT,)
+        emit_compiled(compiled, t, prefix or "", named, precision=precision) for t in targets or (DEFAULT,)
     ]
     more = explained(compiled) if explain and as_json else {}
     if explain and compiled.kernel.sites is not None:
@@ -207,14 +206,17 @@ def _write(
         screen.print_json(records)
 
 
-def _require_known(targets: tuple[str, ...], precision: str) -> None:
-    """Raise UnknownName for an unknown target or precision."""
+def _require_known(targets: tuple[str, ...], precision: str, prefix: str | None) -> None:
+    """Raise UnknownName for an unknown target or precision, and InputError for a prefix that is no name."""
     from codegen.ir.precision import precision as known_precision
+    from codegen.prefix import prefix_of
     from codegen.printers import target as known_target
 
     for name in targets:
         known_target(name)
     known_precision(precision)
+    if prefix is not None:
+        prefix_of(prefix)
 
 
 def explained(compiled: Compiled) -> dict[str, object]:

@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from fractions import Fraction
 from functools import cached_property
 
 from flint import arb
@@ -33,6 +34,13 @@ AHEAD = 1e-34
 The sign of x at the time t + AHEAD decides which case of abs(x) applies just after the time t. The time t has
 about 60 decimal digits, so AHEAD is much larger than the rounding error of t. AHEAD is also much smaller than
 the time scales of the solution.
+"""
+
+FARTHER, UNCLEAR = 1e-20, 1e-55
+"""A longer time, and the largest distance from a boundary between two cases that can be a rounding error.
+
+The state after FARTHER decides if the state after AHEAD is at most UNCLEAR away from the boundary. A solution
+that touches the boundary moves away from it by about FARTHER^2, which is much larger than UNCLEAR.
 """
 
 NEAR = (1e-5, 1e-6)
@@ -113,18 +121,27 @@ class PiecewiseField:
     def sides_at(self, y: Vector, t: Scalar, flow: Evaluate | None = None) -> Sides:
         """For each operation with several cases, return the case that applies just after the time t.
 
-        For example, abs(x) has the cases x > 0 and x <= 0. The state just after t is computed
-        by a short Euler step from y with the derivative ``flow(y, t)``. By default, ``flow`` is the field of
-        the scene.
+        For example, abs(x) has the cases x > 0 and x <= 0. The state just after t is computed by a short
+        Euler step from y with the derivative ``flow(y, t)``. If this state is on a boundary between two cases,
+        a longer step of the midpoint rule replaces the Euler step. By default, ``flow`` is the field of the
+        scene.
         """
         whole = straight_line(self.scene.name, self.scene.symbols, self.roots).python(ball, FUNCTIONS)
-        ahead = arb(AHEAD)
-        slopes = (whole if flow is None else flow)(y, t)
-        point = tuple((a + ahead * b).mid() for a, b in zip(y, slopes, strict=True))
+        slope = whole if flow is None else flow
         tests = tuple(node.args[0] for node in self.nodes)
         values = straight_line(self.scene.name, self.scene.symbols, tests).python(ball, FUNCTIONS)
+        now = slope(y, t)
+        near = values(_moved(y, now, arb(AHEAD)), t + arb(AHEAD))
+        if all(_distance(node.payload, x) > UNCLEAR for node, x in zip(self.nodes, near, strict=True)):
+            return tuple(_side(node.payload, x) for node, x in zip(self.nodes, near, strict=True))
+        # If the solution touches a boundary, as x = t^2 touches 0, the Euler step stays on the boundary.
+        ahead = arb(FARTHER)
+        far = values(_moved(y, slope(_moved(y, now, ahead / 2), t + ahead / 2), ahead), t + ahead)
         return tuple(
-            _side(node.payload, x) for node, x in zip(self.nodes, values(point, t + ahead), strict=True)
+            _side(
+                node.payload, b if _distance(node.payload, a) <= UNCLEAR < _distance(node.payload, b) else a
+            )
+            for node, a, b in zip(self.nodes, near, far, strict=True)
         )
 
     def beyond(self, sides: Sides, y: Vector, t: Scalar) -> tuple[Sides, int]:
@@ -171,12 +188,13 @@ class Sided:
 
     A selection is an operation with several cases, such as abs(x). ``sides`` contains the current case of
     each selection. ``kinks`` contains the number of continuous derivatives at each past event, or -1 if the
-    field is discontinuous there.
+    field is discontinuous there. ``times`` contains the times of these events.
     """
 
     def __init__(self, fields: PiecewiseField) -> None:
         self.fields = fields
         self.kinks: list[int] = []
+        self.times: list[float] = []
 
     def begin(self, y: Vector, t: Scalar) -> None:
         """Set ``sides`` for a run that begins at the state y and the time t."""
@@ -266,6 +284,7 @@ class Sided:
             )
         self.sides = sides
         self.kinks.append(smooth)
+        self.times.append(float(now))
         if len(self.kinks) > MOST_EVENTS:
             raise SceneError(
                 f"the solution passes more than {MOST_EVENTS} points where the field is not smooth",
@@ -295,6 +314,16 @@ def _root(margin: Callable[[Scalar], Scalar], a: Scalar, b: Scalar, low: Scalar,
             high = (high / 2).mid() if moved > 0 else high
             a, low, moved = tau, value, 1
     return tau
+
+
+def _moved(y: Vector, slope: Vector, time: Scalar) -> Vector:
+    return tuple((a + time * b).mid() for a, b in zip(y, slope, strict=True))
+
+
+def _distance(function: str, x: Scalar) -> float:
+    """Return the distance of ``x`` from the nearest boundary between two cases of a selection."""
+    knots = function.knots if isinstance(function, PiecewisePolynomial) else (Fraction(0),)
+    return min(abs(float((x - arb(k.numerator) / k.denominator).mid())) for k in knots)
 
 
 def _side(function: str, x: Scalar) -> int:

@@ -104,6 +104,7 @@ class Reference:
     - ``sizes``: for each coordinate, the largest absolute value at the steps of the solution. A coordinate
       that is 0 at both ends of the time span can be large between them.
     - ``speeds``: for each coordinate, the largest absolute value of its velocity at the steps.
+    - ``times``: the times of the points in ``kinks``.
     """
 
     scene: str
@@ -112,6 +113,7 @@ class Reference:
     kinks: tuple[int, ...] = ()
     sizes: tuple[float, ...] = ()
     speeds: tuple[float, ...] = ()
+    times: tuple[float, ...] = ()
 
     def digits(self, count: int = 30) -> tuple[str, ...]:
         """Return the coordinates in ``state`` as decimal strings with ``count`` significant digits."""
@@ -129,6 +131,7 @@ class _Stored:
     kinks: tuple[int, ...]
     sizes: tuple[float, ...]
     speeds: tuple[float, ...]
+    times: tuple[float, ...]
 
 
 class _Peaks:
@@ -163,13 +166,14 @@ def cached_reference(
 
     def compute() -> _Stored:
         computed = reference(scene, end)
-        more = computed.kinks, computed.sizes, computed.speeds
+        more = computed.kinks, computed.sizes, computed.speeds, computed.times
         return _Stored(computed.digits(DIGITS), computed.uncertainty, *more)
 
     stored = (cache or user_cache()).get(_key(scene), _Stored, compute)
     context = PreciseDomain(0, DIGITS).context
     state = tuple(map(context.mpf, stored.state))
-    return Reference(scene.name, state, stored.uncertainty, stored.kinks, stored.sizes, stored.speeds)
+    more = stored.kinks, stored.sizes, stored.speeds, stored.times
+    return Reference(scene.name, state, stored.uncertainty, *more)
 
 
 def _key(scene: Problem) -> tuple[object, ...]:
@@ -201,7 +205,7 @@ def reference(scene: Problem, end: float = math.inf) -> Reference:
     Raises :class:`codegen.errors.SceneError` if the equation cannot be solved, if the two solutions do not
     agree to 28 digits, or if the deadline passes.
     """
-    (checked, *_), (answer, kinks, peaks) = (
+    (checked, *_), (answer, events, peaks) = (
         _end(scene, columns, exponent, end) for columns, exponent in RUNS
     )
     size = max(1.0, *(float(abs(x)) for x in answer))
@@ -213,13 +217,14 @@ def reference(scene: Problem, end: float = math.inf) -> Reference:
             expected=f"agreement to {AGREEMENT:g}",
             hint="perhaps the field is not smooth; shorten the span, or remove discontinuities of the field",
         )
-    return Reference(scene.name, answer, gap, kinks, peaks.sizes, peaks.speeds)
+    kinks, times = tuple(k for k, _ in events), tuple(t for _, t in events)
+    return Reference(scene.name, answer, gap, kinks, peaks.sizes, peaks.speeds, times)
 
 
 def _end(
     scene: Problem, columns: int, exponent: int, finish: float
-) -> tuple[Vector, tuple[int, ...], _Peaks]:
-    """Return the state at the end of the time span, the attribute ``kinks`` of :class:`Reference`, and peaks.
+) -> tuple[Vector, tuple[tuple[int, float], ...], _Peaks]:
+    """Return the state at the end of the time span, pairs (kink, time) of :class:`Reference`, and peaks.
 
     The tolerance is 10^``exponent``.
     Raises SceneError if ``time.monotonic()`` exceeds ``finish`` before the computation ends.
@@ -231,8 +236,8 @@ def _end(
         smooth = None if piecewise.nodes else ambient_field(scene)
         peaks, field = _Peaks(len(y)), smooth or Sided(piecewise)
         final = _integrate(scene, field, y, columns, 10.0**exponent, finish, peaks)
-        kinks = tuple(field.kinks) if isinstance(field, Sided) else ()
-        return tuple(context.context.mpf(x.str(DIGITS + 5, radius=False)) for x in final), kinks, peaks
+        events = tuple(zip(field.kinks, field.times, strict=True)) if isinstance(field, Sided) else ()
+        return tuple(context.context.mpf(x.str(DIGITS + 5, radius=False)) for x in final), events, peaks
 
 
 def _integrate(

@@ -20,8 +20,9 @@ def with_runtime(problem: Problem, names: Sequence[str]) -> Problem:
     """Return a copy of ``problem`` with other values of parameters, or with parameters as run-time inputs.
 
     An entry ``alpha`` of ``names`` makes the parameter alpha an input. An entry ``alpha=1/2`` sets alpha to
-    1/2. The initial state, the invariants, the parts and the flows of the scene are then checked again: for
-    the new values, and for further values of the inputs (:func:`codegen.scene.orbit.variants`).
+    1/2. With both entries, 1/2 is the default value of the input. The initial state, the invariants, the
+    parts and the flows of the scene are then checked again: for the new values, and for further values of the
+    inputs (:func:`codegen.scene.orbit.variants`).
 
     :class:`SceneError` is raised for an unknown parameter, for two values of one parameter, for a value
     that is not a number, and for formulas that contradict each other.

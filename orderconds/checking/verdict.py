@@ -65,13 +65,13 @@ def check(
     order, tolerance = _bounds(order, tolerance, limits)
     tableau = tableau if isinstance(tableau, Tableau) else read(tableau)
     given, tableau = tableau, with_tolerance(tableau, tolerance)
-    wanted = [*_wanted(tableau, family)]
+    wanted, outside = _members(tableau, family)
     proof, broken = _proof(tableau)
     enclosed, facts = (proof.tableau, proof.facts) if proof else (tableau, ())
     embedded = _embedded(enclosed, [f for f, _ in wanted], proof.lower_facts if proof else ())
     computed, dense = properties(tableau), extension_order(tableau)
     if family is None:
-        broken += (*_broken_claims(tableau, computed, embedded), *_broken_extension(dense))
+        broken += (*outside, *_broken_claims(tableau, computed, embedded), *_broken_extension(dense))
     broken += _missing_claims(enclosed, tableau) if complete else []
     orders = _named(_orders(enclosed, wanted, facts, order, Meter(limits or Limits())), tableau)
     broken += [f"{f.family}: certificate {f.certificate}" for f in _not_proved(orders) if certified]
@@ -377,6 +377,30 @@ def _wanted(tableau: Tableau, family: str | None) -> Iterator[tuple[Family, int 
         yield _claimed(tableau, label), order
     if not claims:
         yield families.get(tableau.family).for_method(tableau.method), None
+
+
+def _members(tableau: Tableau, family: str | None) -> tuple[list[tuple[Family, int | None]], list[str]]:
+    """Return pairs (family to check, claimed order), and a message for each claim without such a pair.
+
+    A claim in a family to which the method does not belong is wrong, although the file is valid.
+    """
+    wanted = [*_wanted(tableau, family)]
+    if family is not None or not tableau.claims.orders:
+        return wanted, []
+    members, messages = [], []
+    for member, claimed in wanted:
+        method = member.read(tableau)
+        try:
+            if method is not None:
+                member.require(method, tableau.ring)
+        except InputError as problem:
+            messages.append(
+                f"{member.label()}: the method is not in this family, because {problem.found}; "
+                f"expected {problem.expected}"
+            )
+        else:
+            members.append((member, claimed))
+    return members, messages
 
 
 def _claimed(tableau: Tableau, label: str) -> Family:

@@ -338,11 +338,13 @@ def _print_report(report: Report, *, detailed: bool) -> None:
     """Print the orders, the failing conditions and the properties of one tableau."""
     heading = f"{report.name}: {report.conclusion}"
     click.secho(heading + (f"  ({report.file})" if report.file else ""), bold=True)
-    screen.print_table(
-        ("family", "claimed", "order", "verdict", "certificate", "error norm"),
-        [_row(family) for family in report.orders],
-        indent=2,
-    )
+    # No order is computed if the method belongs to none of the families that its file claims.
+    if report.orders:
+        screen.print_table(
+            ("family", "claimed", "order", "verdict", "certificate", "error norm"),
+            [_row(family) for family in report.orders],
+            indent=2,
+        )
     for family in report.orders:
         if family.certificate == "double" and report.verdict != UNCLAIMED:
             click.echo(f"  {family.family}: {family.sentence}")

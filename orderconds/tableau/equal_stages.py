@@ -29,21 +29,21 @@ def stage_classes(methods: Sequence[RungeKutta], ring: Ring) -> list[list[int]]:
     """
     classes, count, before = [[0] * method.s for method in methods], 1, 0
     while count != before:
-        found: list[tuple[int, list[Element]]] = []
+        kinds: list[tuple[int, list[Element]]] = []
         finer = []
         for method, own in zip(methods, classes, strict=True):
             numbers = []
             for i, row in enumerate(method.A):
                 sums = class_sums(row, own, count, ring)
                 known = (
-                    k for k, entry in enumerate(found) if entry[0] == own[i] and _same(entry[1], sums, ring)
+                    k for k, entry in enumerate(kinds) if entry[0] == own[i] and _same(entry[1], sums, ring)
                 )
-                number = next(known, len(found))
-                if number == len(found):
-                    found.append((own[i], sums))
+                number = next(known, len(kinds))
+                if number == len(kinds):
+                    kinds.append((own[i], sums))
                 numbers.append(number)
             finer.append(numbers)
-        classes, count, before = finer, len(found), count
+        classes, count, before = finer, len(kinds), count
     return classes
 
 

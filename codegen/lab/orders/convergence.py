@@ -12,12 +12,17 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from codegen.certify import CertifiedOrder
+from codegen.certify import CertifiedOrder, certified_order
+from codegen.emitter import Optimised
+from codegen.errors import MethodError
+from codegen.ir.domain import PreciseDomain
 from codegen.lab.distance import distance
+from codegen.lab.number_types import Vector
+from codegen.lab.orders.end_kinks import end_limits, undefined_beyond
 from codegen.lab.orders.run_noise import LATE, Noise
 from codegen.lab.orders.short_steps import order_of_short_steps
-from codegen.lab.orders.step_sizes import CLEAR, TOLERANCE, Refinement, Run, refine
-from codegen.lab.reference import Reference
+from codegen.lab.orders.step_sizes import CLEAR, TOLERANCE, Places, Refinement, Run, refine
+from codegen.lab.reference import DIGITS, Reference
 from codegen.lab.runner import RunFailed, Runner
 from codegen.method import Method
 from codegen.scene.classical_forms import ClassicalForm
@@ -33,6 +38,9 @@ UNPROVED = ("stated", "claimed", "decimal", "double", "none")
 
 If the observed order agrees with an unproved order, the order is tested again with very short steps.
 """
+
+UNDERIVED = ("stated", "claimed", "none")
+"""The values of ``certificate`` for an order that does not follow from order conditions."""
 
 FEWEST = 4
 """The required number of usable runs: four runs give the three slopes that ``Refinement.settled`` needs."""
@@ -58,6 +66,10 @@ class Convergence:
     - ``kinks``: for each kink (point where the field is not smooth), how many derivatives of the field are
       continuous at the kink.
     - ``spread``: the uncertainty of the coefficients if it exceeds :data:`SPREAD`, and otherwise 0.
+    - ``ends``: upper bounds of the observed order from the first and the last step
+      (:mod:`codegen.lab.orders.end_kinks`).
+    - ``derived``: the order from the order conditions, or None if it is not known.
+    - ``undefined``: the reason why every run fails, or an empty text if no such reason is known.
     """
 
     scene: str
@@ -67,6 +79,9 @@ class Convergence:
     refinement: Refinement
     kinks: tuple[int, ...] = ()
     spread: float = 0.0
+    ends: tuple[float, float] = (math.inf, math.inf)
+    derived: int | None = None
+    undefined: str = ""
 
     def __repr__(self) -> str:
         return f"<{self.method} on {self.scene}: {self.sentence()}>"
@@ -96,6 +111,9 @@ class Convergence:
         (:attr:`spread` is not 0), and very short steps show an order below the stated order, the result is
         ``fails``.
 
+        A method can converge faster on one scene than on others. If the order conditions give the stated
+        order, a higher observed order is no failure (:attr:`faster`), and the result is ``holds``.
+
         In all other cases, :meth:`Refinement.verdict` gives the result.
         """
         if self.limit < self.stated.order:
@@ -103,14 +121,35 @@ class Convergence:
         short = self.refinement.short
         if self.spread and short is not None and short < self.stated.order - TOLERANCE:
             return "fails"
-        return self.refinement.verdict(self.stated.order)
+        return "holds" if self.faster else self.refinement.verdict(self.stated.order)
+
+    @property
+    def faster(self) -> bool:
+        """True if the order is higher on this scene than the stated order, which the order conditions give.
+
+        For example, the leading term of the error can vanish because of a symmetry of the scene.
+        """
+        observed, short, order = self.observed, self.refinement.short, self.stated.order
+        return (
+            self.derived == order
+            and self.refinement.settled
+            and observed is not None
+            and observed > order + TOLERANCE
+            and (short is None or short >= order - TOLERANCE)
+        )
 
     @property
     def limit(self) -> float:
         """An upper bound of the observed order on this scene, for runs with equal steps.
 
-        If the solution has no kinks (points where the field is not smooth), the bound is infinity.
+        If no step evaluates the field on both sides of a kink (point where the field is not smooth), the
+        bound is infinity.
         """
+        return min(self._crossing, *self.ends)
+
+    @property
+    def _crossing(self) -> float:
+        """The upper bound from the kinks that the solution crosses."""
         # If k derivatives of the field are continuous at a kink, the local error of the step across the kink
         # is proportional to h^(k+2).
         return min(self.kinks) + 2 if self.kinks else math.inf
@@ -144,7 +183,7 @@ class Convergence:
         """Return the verdict and its reason in one line."""
         if self.observed is None:
             reasons = sorted({r.excluded for r in self.refinement.runs if r.excluded})
-            why = "; ".join(reasons) or "too few steps"
+            why = self.undefined or "; ".join(reasons) or "too few steps"
             advice = f"; {EARLIER}" if any(reason.startswith(LATE) for reason in reasons) else ""
             return f"undecided: no two consecutive runs are usable ({why}){advice}"
         about = f"observed order {self.observed:.2f}, stated {self.stated.order} ({self.stated.certificate})"
@@ -152,18 +191,37 @@ class Convergence:
             return f"undecided: {about}; {self._crossed()}"
         if self.verdict == "undecided":
             return f"undecided: {about}, but {self._unsettled()}"
+        if self.faster:
+            about += "; on this scene, the method converges faster than the order conditions guarantee"
         if self.refinement.short is None or abs(self.refinement.short - self.observed) <= TOLERANCE:
             return f"{self.verdict}: {about}"
         return f"{self.verdict}: {about}; {self._short()}"
 
     def _crossed(self) -> str:
         """Return a text that explains how kinks (points where the field is not smooth) limit the order."""
-        number = len(self.kinks)
-        places = "one point" if number == 1 else f"{number} points"
+        reasons = []
+        if self._crossing < self.stated.order:
+            reasons.append(f"the solution crosses {self._places()} where the field is not smooth")
+        for step, place, bound in zip(("first", "last"), ("start", "end"), self.ends, strict=True):
+            if bound < self.stated.order:
+                reasons.append(
+                    f"the {step} step evaluates the field at or beyond the {place} of the solution, where "
+                    "the field is not smooth"
+                )
         return (
-            f"the solution crosses {places} where the field is not smooth; therefore runs with equal steps "
-            f"have at most order {self.limit}; order {self.stated.order} requires a smooth field"
+            f"{', and '.join(reasons)}; therefore runs with equal steps have at most order {self.limit}"
+            f"{self._aligned()}; order {self.stated.order} requires a smooth field"
         )
+
+    def _places(self) -> str:
+        return "one point" if len(self.kinks) == 1 else f"{len(self.kinks)} points"
+
+    def _aligned(self) -> str:
+        """Return the condition of the highest order if the runs of the shortest steps violate it."""
+        last = self.refinement.observed
+        if self._crossing > self.limit or last is None or last <= self.limit + TOLERANCE:
+            return ""
+        return " if no step ends at such a point"
 
     def _short(self) -> str:
         """Return a text that compares the order at very short steps with the order at the usual steps."""
@@ -184,6 +242,12 @@ class Convergence:
             return f"{LATE} dominates before the slopes settle; {EARLIER}"
         if self.refinement.settled:
             return f"{self._short()}; try finer steps"
+        if self.kinks:
+            return (
+                f"the slopes have not settled; the solution crosses {self._places()} where the field is not "
+                "smooth, and the error depends on the position of such a point in its step; choose numbers "
+                "of steps with which a step ends at each of these points"
+            )
         if any(r.excluded == ROUNDING for r in self.refinement.runs):
             return "rounding dominates before the slopes settle; use --target interpreter --digits 40"
         if len(self.refinement.clean) < FEWEST:
@@ -240,7 +304,9 @@ def converge(
 
     - ``stated``: the order to test.
     - ``exact``: the reference solution.
-    - ``steps``: the numbers of steps of the runs, by default 5, 10, 20, ... up to ``runner.most_steps``.
+    - ``steps``: the numbers of steps of the runs, by default 5, 10, 20, ... up to ``runner.most_steps``. If
+      the solution crosses points where the field is not smooth, other numbers are used if this is necessary
+      for steps that end at these points.
     - ``to_rounding``: If True, the runs continue until rounding errors dominate.
     - ``form``: the form of the equations that ``runner`` integrates, or None for the equations of the scene.
 
@@ -253,21 +319,45 @@ def converge(
     def run(n: int) -> Run:
         return _rung(scene, runner, exact, n, noise, form)
 
+    places = Places.of(exact.kinks, exact.times, scene.span, stated.order)
     refinement = (
         Refinement(tuple(run(n) for n in sorted(steps)))
         if steps
-        else refine(run, runner.most_steps, to_rounding)
+        else refine(run, runner.most_steps, to_rounding, places)
     )
     spread = uncertainty(runner.compiled.method)
     visible = visible_uncertainty(runner.compiled.method)
-    result = Convergence(scene.name, label, runner.target, stated, refinement, exact.kinks, visible)
+    ends = end_limits(runner.compiled, _end(exact, form))
+    result = Convergence(scene.name, label, runner.target, stated, refinement, exact.kinks, visible, ends)
     proved = stated.certificate not in UNPROVED
     if result.limit < stated.order:
         return result
-    if result.observed is None or (result.verdict == "holds" and proved):
+    if result.observed is None:
+        failed = bool(refinement.runs) and all(math.isinf(r.error) for r in refinement.runs)
+        return replace(
+            result, undefined=undefined_beyond(runner.compiled, _end(exact, form)) if failed else ""
+        )
+    if result.verdict == "holds" and proved:
         return result
     short = order_of_short_steps(runner.compiled, stated.order, 0.0 if visible else spread)
-    return replace(result, refinement=replace(refinement, short=short))
+    result = replace(result, refinement=replace(refinement, short=short))
+    observed = result.observed
+    higher = result.verdict == "fails" and observed is not None and observed > stated.order
+    return replace(result, derived=derived_order(runner.compiled)) if higher else result
+
+
+def derived_order(compiled: Optimised) -> int | None:
+    """Return the order that the order conditions give, or None if they do not decide it."""
+    try:
+        order = certified_order(compiled.method, compiled.scene)
+    except MethodError:
+        return None
+    return None if order.certificate in UNDERIVED else order.order
+
+
+def _end(exact: Reference, form: ClassicalForm | None) -> Vector:
+    """Return the exact final state in the coordinates that the method integrates."""
+    return exact.state if form is None else form.form_state(PreciseDomain(0, DIGITS), exact.state)
 
 
 def uncertainty(method: Method) -> float:

@@ -13,7 +13,8 @@ from codegen.artifact import Artifact
 from codegen.certify import CertifiedOrder, certified_order
 from codegen.emitter import Compiled
 from codegen.lab.measurement_cache import MeasurementCache
-from codegen.lab.orders.convergence import Convergence, converge, visible_uncertainty
+from codegen.lab.orders.convergence import Convergence, converge, derived_order, visible_uncertainty
+from codegen.lab.orders.end_kinks import end_limits
 from codegen.lab.orders.step_sizes import FIRST, Refinement
 from codegen.lab.progress import Progress
 from codegen.lab.reference import Reference
@@ -112,9 +113,15 @@ def order_study(
     files = [(target, *sorted(runner.artifact.files.items())) for target, runner in runners.items()]
     key = ("orders", *files, exact.digits())
     measured = (cache or MeasurementCache(None)).get(key, _Measured, measure)
-    spread = visible_uncertainty(method)
+    spread, ends, derived = (
+        visible_uncertainty(method),
+        end_limits(compiled, exact.state),
+        derived_order(compiled),
+    )
     convergences = {
-        target: Convergence(scene.name, method.label, target, order, refinement, exact.kinks, spread)
+        target: Convergence(
+            scene.name, method.label, target, order, refinement, exact.kinks, spread, ends, derived
+        )
         for target, refinement in measured.refinements.items()
     }
     return OrderStudy(method, order, convergences, measured.times, measured.spread, main.artifact)

@@ -18,6 +18,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from itertools import pairwise
 
 SETTLED = 0.1
@@ -44,6 +45,53 @@ LONGER = (2, 3, 4)
 
 These numbers are smaller than :data:`FIRST`, so these runs have larger step sizes than the first run.
 """
+
+LARGEST_UNIT = 20
+"""The largest value of :attr:`Places.unit`. A larger value would allow too few runs with long steps."""
+
+NEAR = 1e-12
+"""Two times are equal if their difference is at most NEAR times the length of the time span."""
+
+
+@dataclass(frozen=True)
+class Places:
+    """The points of a solution where the field is not smooth, as a restriction of the numbers of steps.
+
+    The error of a step across such a point depends on the position of the point in the step, so the slopes
+    settle only if this position is the same in all runs.
+
+    - ``unit``: if all numbers of steps are multiples of ``unit``, a step ends at each of the points.
+    - ``known``: False if there are points, but no such ``unit``.
+    """
+
+    unit: int = 1
+    known: bool = True
+
+    @classmethod
+    def of(
+        cls, kinks: Sequence[int], times: Sequence[float], span: tuple[Fraction, Fraction], stated: int
+    ) -> Places:
+        """Return the restriction for a method of the order ``stated``.
+
+        ``kinks`` and ``times`` are attributes of :class:`codegen.lab.reference.Reference`. If the points
+        reduce the order, the numbers of steps are not restricted: steps that end at the points would hide the
+        reduction. At a jump of the field, rounding of the time decides which side a stage at the end of a
+        step belongs to, so steps do not end there.
+        """
+        if not kinks:
+            return cls()
+        if min(kinks) < max(0, stated - 2) or len(times) != len(kinks):
+            return cls(known=False)
+        first, length = span[0], span[1] - span[0]
+        fractions = [float((Fraction(t) - first) / length) for t in times]
+        near = [Fraction(x).limit_denominator(LARGEST_UNIT) for x in fractions]
+        unit = math.lcm(*(x.denominator for x in near))
+        exact = all(abs(x - float(y)) <= NEAR for x, y in zip(fractions, near, strict=True))
+        return cls(unit) if exact and unit <= LARGEST_UNIT else cls(known=False)
+
+    def steps(self, least: float) -> int:
+        """Return the smallest permitted number of steps that is at least ``least``."""
+        return math.ceil(least / self.unit) * self.unit
 
 
 @dataclass(frozen=True)
@@ -156,8 +204,12 @@ def slopes(runs: Sequence[Run]) -> tuple[float, ...]:
     return tuple(round(math.log(a.error / b.error) / math.log(a.h / b.h), 12) for a, b in pairwise(runs))
 
 
-def refine(run: Callable[[int], Run], most: int, to_rounding: bool = False) -> Refinement:
-    """Make runs with N, 2 N, 4 N, ... steps, where N is :data:`FIRST`, and return the runs.
+def refine(
+    run: Callable[[int], Run], most: int, to_rounding: bool = False, places: Places | None = None
+) -> Refinement:
+    """Make runs with N, 2 N, 4 N, ... steps, where N is about :data:`FIRST`, and return the runs.
+
+    N is the smallest number of steps from :data:`FIRST` that ``places`` permits.
 
     No run has more than ``most`` steps. If ``to_rounding`` is False, the function stops as soon as
     :attr:`Refinement.settled` is True.
@@ -167,10 +219,14 @@ def refine(run: Callable[[int], Run], most: int, to_rounding: bool = False) -> R
     (:attr:`Run.excluded`), and at least one run is usable. The added runs are:
 
     - runs with the numbers of steps in :data:`LONGER`,
-    - two runs with 6/5 n and 7/5 n steps for each usable run with n steps.
+    - two runs with about 6/5 n and 7/5 n steps for each usable run with n steps.
+
+    ``places`` changes these numbers of steps to permitted numbers. If the points in ``places`` are not at the
+    ends of steps, no runs are added: a point would have another position in its step in each run.
     """
     runs: list[Run] = []
-    steps = FIRST
+    places = places or Places()
+    steps = places.steps(FIRST)
     while steps <= most:
         runs.append(run(steps))
         refinement = Refinement(tuple(runs))
@@ -180,11 +236,12 @@ def refine(run: Callable[[int], Run], most: int, to_rounding: bool = False) -> R
             break
         steps *= 2
     refinement = Refinement(tuple(runs))
-    if refinement.settled or not refinement.clean or not refinement.runs[-1].excluded:
+    if refinement.settled or not refinement.clean or not refinement.runs[-1].excluded or not places.known:
         return refinement
     known = {r.steps: r for r in runs}
     more = [*LONGER, *(k * r.steps // FIRST for r in refinement.clean for k in (6, 7))]
-    known |= {n: run(n) for n in more if n <= most}
+    permitted = sorted({places.steps(n) for n in more} - known.keys())
+    known |= {n: run(n) for n in permitted if n <= most}
     return Refinement(tuple(known[n] for n in sorted(known)))
 
 

@@ -132,7 +132,8 @@ def _identities(tableau: Tableau) -> Vanishing:
     If the tableau file contains no equations for the exact tableau (the table ``[proof]``), no coefficient
     counts as zero. Otherwise, the function replaces the rounded decimals and the radicals in the tableau by
     random numbers that satisfy these equations. If a coefficient is zero for the random numbers, it counts as
-    zero for the exact tableau. The probability of a wrong result is negligible (:mod:`orderconds.tableau.random_member`).
+    zero for the exact tableau. The probability of a wrong result is negligible
+    (:mod:`orderconds.tableau.random_member`).
     """
     if tableau.proof is None:
         return Vanishing()

@@ -215,3 +215,8 @@ def test_a_tableau_without_family_on_a_hamiltonian_scene_has_a_note():
     assert chosen
     assert result("linear_oscillator", "vcg:rk4") == ("", False)
     assert result("free_rigid_body", "cf4") == ("", False)
+
+
+def test_an_empty_prefix_is_refused() -> None:
+    with pytest.raises(InputError, match="'' cannot be the prefix"):
+        run(emit, "free_rigid_body", "-m", "cf4", "--prefix", "", "--json")

@@ -208,3 +208,37 @@ def test_a_check_imports_no_numerical_library(name: str) -> None:
     )
     found = subprocess.run([sys.executable, "-c", code, name], check=True, capture_output=True, text=True)
     assert found.stdout.strip() == "[]"
+
+
+PAIR = """name = "pair"
+family = "prk"
+A = [[], ["1"]]
+b = ["1/2", "1/2"]
+A_hat = [[], ["1"]]
+b_hat = ["1/3", "2/3"]
+[claims]
+"""
+
+
+@pytest.mark.parametrize("name", ["sprk_separable", "prk_same_weights"])
+def test_a_claim_in_a_family_without_the_method_is_refuted(name: str, tmp_path: Path) -> None:
+    path = tmp_path / "pair.toml"
+    path.write_text(f"{PAIR}prk = 1\n{name} = 2\n")
+    report = check(path)
+    assert report.verdict == "fails"
+    (broken,) = report.broken_claims
+    assert broken.startswith(f"{name}: the method is not in this family, because b_1 ")
+    assert [(f.family, f.verdict) for f in report.orders] == [("prk", "holds")]
+    assert CliRunner().invoke(program, ["check", str(path)]).exit_code == 1
+    # The option --family names the family of the user, so the input is wrong.
+    with pytest.raises(InputError, match=f"family {name}"):
+        check(path, family=name)
+
+
+def test_a_report_without_orders_has_no_table(tmp_path: Path) -> None:
+    path = tmp_path / "alone.toml"
+    path.write_text(f"{PAIR}sprk_separable = 2\n")
+    done = CliRunner().invoke(program, ["check", str(path)])
+    assert done.exit_code == 1
+    assert "claim fails: sprk_separable: the method is not in this family" in done.output
+    assert "error norm" not in done.output

@@ -16,7 +16,7 @@ from codegen.certify import CertifiedOrder, certified_order
 from codegen.commands.converge import command
 from codegen.emitter import Compiled, compile_method
 from codegen.errors import MethodError
-from codegen.groups import SO3, Rotation
+from codegen.groups import S3, SO3, Product, Rn, Rotation
 from codegen.ir.number import Number
 from codegen.ir.operations import Advance
 from codegen.ir.program import Assign
@@ -24,11 +24,12 @@ from codegen.ir.values import Coefficient
 from codegen.lab import runner as lab_runner
 from codegen.lab.orders import convergence
 from codegen.lab.orders.convergence import Convergence, converge
+from codegen.lab.orders.scene_convergence import converge as converge_scene
 from codegen.lab.reference import Reference, reference
 from codegen.lab.runner import Interpreted, runner
 from codegen.lower import families_for
 from codegen.method import Method, parse
-from codegen.scene import FieldScene
+from codegen.scene import FieldScene, HamiltonianScene
 from codegen.scene.problem import Problem
 from codegen.scenes import load
 from orderconds.ring import QQ
@@ -177,6 +178,28 @@ def test_a_small_parameter_that_hides_the_leading_term_is_no_failure(
     words = ["heavy_top", "-m", method, "--stated", str(order + 1), "--json"]
     (wrong,) = json.loads(CliRunner().invoke(command, words, standalone_mode=False).output)
     assert (wrong["verdict"], wrong["stated_order"]) == ("fails", order + 1), wrong["reason"]
+
+
+def test_a_method_that_converges_faster_on_a_scene_than_its_order_conditions_is_no_failure() -> None:
+    """The Hamiltonian is bi-invariant and quadratic, so the error terms of order 2 of VCG methods vanish."""
+    group = Product(S3(), Rn(1))
+    q, mu = group.point("q"), group.dual("mu")
+    energy = mu.dot(mu) / 2 + q[4] ** 2 / 2 + q[4] * q[1] + q[0] * q[2]
+    start = ([1, 0, 0, 0, Rational(1, 2)], [Rational(3, 10), Rational(1, 5), Rational(-1, 2), 0])
+    scene = HamiltonianScene(group=group, q=q, mu=mu, H=energy, q0=start[0], mu0=start[1], span=(0, 2))
+    (found,) = converge_scene(scene, "vcg:gauss2", target="python")
+    assert found.observed == pytest.approx(4, abs=0.05)
+    assert (found.stated.order, found.verdict) == (2, "holds"), found.sentence()
+    assert "converges faster than the order conditions guarantee" in found.sentence()
+    for other in (1, 3):
+        assert replace(found, stated=CertifiedOrder(other, "exact")).verdict == "fails"
+
+
+@pytest.mark.parametrize("certificate", ["stated", "claimed", "exact"])
+def test_an_order_stated_too_low_fails(certificate: str, exact: Exact) -> None:
+    run = runner(load("free_rigid_body"), parse("ambient:rk4", ("ambient",)), "python")
+    found = converge(run, CertifiedOrder(3, certificate), exact("free_rigid_body"))
+    assert (found.derived, found.verdict) == (4, "fails")
 
 
 def test_a_method_that_cannot_be_emitted_is_a_row_and_the_others_run(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -147,3 +147,36 @@ def test_a_report_does_not_decide_an_order_across_a_kink() -> None:
     scene = oscillator(spring)
     study = order_study(compile_method(scene, "ambient:rk4"), reference(scene), str)
     assert study.verdict == "undecided"
+
+
+def test_steps_end_at_the_points_of_a_table_so_the_slopes_settle() -> None:
+    # A cubic table keeps order 4, but the error depends on the positions of its points in their steps.
+    t = sympy.Symbol("t")
+    gain = table([-1, 0.5, 1, 2], [1, 1.2, 0.9, 1], t)
+    u, v = state = Rn(2).point("z")
+    f = [sympy.sin(v) * gain, u * v - u]
+    span = (0, sympy.Rational(3, 2))
+    scene = FieldScene(group=Rn(2), action=LeftMultiplication(), y=state, f=f, y0=[1, 0.3], span=span)
+    exact = reference(scene)
+    assert (exact.kinks, exact.times) == ((2, 2), (0.5, 1.0))
+    (found,) = converge(scene, "ambient:rk4", target="interpreter")
+    assert found.verdict == "holds", found.sentence()
+    assert all(run.steps % 3 == 0 for run in found.refinement.runs)
+
+
+def test_a_step_that_ends_at_a_kink_is_named_as_the_reason_of_a_higher_order() -> None:
+    t = sympy.Symbol("t")
+    u, v = state = Rn(2).point("z")
+    f = [v * (1 + sympy.Abs(t - 1)), -u]
+    scene = FieldScene(group=Rn(2), action=LeftMultiplication(), y=state, f=f, y0=[1, 0], span=(0, 2))
+    (found,) = converge(scene, "ambient:rk4", target="interpreter")
+    assert found.verdict == "undecided"
+    assert "at most order 2 if no step ends at such a point" in found.sentence()
+
+
+def test_slopes_that_kinks_disturb_are_explained() -> None:
+    errors = (1.0, 1 / 40, 1 / 200, 1 / 8000)
+    runs = tuple(Run(5 * 2**k, 2.0**-k, e) for k, e in enumerate(errors))
+    found = Convergence("scene", "rk4", "c", CertifiedOrder(4, "exact"), Refinement(runs), (2,))
+    assert found.verdict == "undecided"
+    assert "crosses one point where the field is not smooth" in found.sentence()

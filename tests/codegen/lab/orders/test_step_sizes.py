@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
+from fractions import Fraction
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from codegen.lab.orders.step_sizes import FIRST, Refinement, Run, refine, rounding
+from codegen.lab.orders.step_sizes import FIRST, Places, Refinement, Run, refine, rounding
 
 
 def errors(order: float, bend: float = 0.0, size: float = 1.0, count: int = 12) -> Refinement:
@@ -108,3 +109,34 @@ def test_a_run_that_failed_does_not_end_the_climb() -> None:
     refinement = refine(run, 10**4)
     assert [r.steps for r in refinement.clean] == [40, 80, 160, 320]
     assert refinement.verdict(2) == "holds"
+
+
+SPAN = (Fraction(1), Fraction(5, 2))
+
+
+@pytest.mark.parametrize(
+    ("kinks", "times", "stated", "expected"),
+    [
+        ((), (), 4, Places()),
+        ((2, 2), (1.5, 2.0), 4, Places(3)),
+        ((2, 0), (1.5, 1.75), 2, Places(6)),
+        ((2,), (1 + 2**-0.5,), 4, Places(known=False)),  # no small multiple ends at an irrational time
+        ((2, 2), (1 + 1.5 / 7, 1 + 1.5 / 11), 4, Places(known=False)),  # the unit would be 77
+        ((2,), (1.5,), 5, Places(known=False)),  # steps that end at the point hide the reduction of the order
+        ((-1,), (1.5,), 1, Places(known=False)),  # rounding of the time decides the side of a jump
+        ((2,), (), 4, Places(known=False)),
+    ],
+)
+def test_steps_end_at_points_that_keep_the_order(
+    kinks: tuple[int, ...], times: tuple[float, ...], stated: int, expected: Places
+) -> None:
+    assert Places.of(kinks, times, SPAN, stated) == expected
+
+
+def test_runs_keep_the_positions_of_the_points_in_their_steps() -> None:
+    def run(n: int) -> Run:
+        return Run(n, 1 / n, float(n) ** -(9 if n < 40 else 4), "rounding" if n > 40 else "")
+
+    assert all(r.steps % 3 == 0 for r in refine(run, 10**4, places=Places(3)).runs)
+    assert [r.steps for r in refine(run, 10**4, places=Places(known=False)).runs] == [5, 10, 20, 40, 80]
+    assert len(refine(run, 10**4).runs) > 5
