@@ -122,9 +122,9 @@ class PiecewiseField:
         """For each operation with several cases, return the case that applies just after the time t.
 
         For example, abs(x) has the cases x > 0 and x <= 0. The state just after t is computed by a short
-        Euler step from y with the derivative ``flow(y, t)``. If this state is on a boundary between two cases,
-        a longer step of the midpoint rule replaces the Euler step. By default, ``flow`` is the field of the
-        scene.
+        Euler step from y with the derivative ``flow(y, t)``. If this state is on a boundary between two
+        cases, a longer step of the midpoint rule replaces the Euler step. By default, ``flow`` is the field
+        of the scene.
         """
         whole = straight_line(self.scene.name, self.scene.symbols, self.roots).python(ball, FUNCTIONS)
         slope = whole if flow is None else flow
