@@ -19,7 +19,7 @@ from orderconds.errors import ZeroWeight
 from orderconds.proof.certificate import certify
 from orderconds.proof.krawczyk import NotProved, jets
 from orderconds.proof.refine import decimal_places
-from orderconds.ring import Ring
+from orderconds.ring import Balls, Ring
 from orderconds.ring.jets import Jets
 from orderconds.ring.precision import precision
 from orderconds.ring.traces import evaluate
@@ -57,6 +57,9 @@ DIGITS = 50
 BITS = 1400
 """The working precision of Newton's method in bits, high enough for lattice reduction."""
 
+ERROR = Fraction(1, 2**800)
+"""A bound on the errors of the coefficients that Newton's method computes."""
+
 WORSE = 1.5
 """Rounding must not increase the largest coefficient or the principal error by more than this factor."""
 
@@ -83,7 +86,8 @@ def certify_solution(
     """Return a solution near ``point``, and prove its order.
 
     ``point`` contains values of the free coefficients of the ansatz. ``name`` and ``source`` are entries of
-    the tableau file. Raises NotProved if the required order cannot be proved.
+    the tableau file. Raises NotProved if the required order cannot be proved, or if a coefficient exceeds the
+    bound of the option ``--size``.
 
     >>> from orderconds.solve.spec import Spec
     >>> from orderconds.solve.problem import find_problem
@@ -94,6 +98,7 @@ def certify_solution(
     """
     rounded, pinned, solved = _rounded_free(problem, np.array(point), FINE if minimised else STEPS)
     sharp = _newton(problem, rounded, pinned, solved)
+    _require_size(problem, pinned, sharp)
     ansatz = renamed(problem.ansatz, name)
     forms: dict[str, ClosedForm] | None = None
     if not (minimised and pinned and solved):
@@ -229,6 +234,23 @@ def _newton(
         if solved:
             raise NotProved("Newton's method does not converge")
     return values
+
+
+def _require_size(problem: Problem, pinned: dict[int, Fraction], sharp: dict[int, arb]) -> None:
+    """Raise NotProved if the absolute value of a coefficient exceeds the bound of the option ``--size``."""
+    bound = problem.spec.size
+    if bound is None:
+        return
+    # The search allows for rounding errors of doubles. The errors of Newton's method are far below ERROR.
+    ring = Balls(BITS)
+    values = [
+        ring.enclose(sharp[j]) if j in sharp else ring.constant(pinned[j])
+        for j in range(len(problem.ansatz.free))
+    ]
+    limit = ring.constant(bound + ERROR)
+    for name, x in zip(problem.ansatz.cells, problem.ansatz.coefficients(values, ring), strict=True):
+        if 1 in (ring.sign(x - limit), ring.sign(-x - limit)):
+            raise NotProved(f"{name} exceeds the bound {bound} of --size")
 
 
 def _square_roots(problem: Problem) -> dict[str, arb]:

@@ -55,6 +55,8 @@ def runge_kutta(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
         refuse(family.label(), spec, ("explicit", "fsal"))
         why = "symplecticity with nonzero weights"  # It implies 2 a_ii b_i = b_i^2.
         constraints += [equal(why, (2, A[i][i]), (-1, b[i])) for i in range(s)]
+        if spec.dirk:  # If a_ji = 0, it implies b_i a_ij = b_i b_j.
+            constraints += [equal(why, (1, A[i][j]), (-1, b[j])) for i in range(s) for j in range(i)]
     if structure == "abscissae":
         constraints.append(sum_to_one(b))
     nodes = {named("c", i + 1): line for i, line in enumerate(A)}

@@ -16,7 +16,7 @@ from orderconds.solve.linear import Elimination, equality
 from orderconds.solve.parametrise import ansatz
 from orderconds.solve.spec import Spec
 from orderconds.tableau import Tableau, find
-from orderconds.tableau.method_properties import explicit, fsal, symmetric
+from orderconds.tableau.method_properties import diagonally_implicit, explicit, fsal, symmetric, symplectic
 
 
 def member(family: str, spec: Spec, structure: str = "full"):
@@ -198,6 +198,14 @@ def test_exponents_may_sum_to_the_gauss_tableau() -> None:
     assert [[text(x) for x in row] for row in total.A] == [
         [gauss.ring.text(x) for x in row] for row in known.A
     ]
+
+
+def test_the_nodes_of_diagonally_implicit_symplectic_methods_can_be_fixed() -> None:
+    # These methods are compositions of midpoint rules: a_ij = b_j for j < i, and a_ii = b_i/2.
+    method = member("symplectic_rk", Spec(3, dirk=True, fix=("c2=1/2",)))
+    assert method.c[1] == fmpq(1, 2)
+    assert symplectic(method, QQ) is True
+    assert diagonally_implicit(method, QQ) is True
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,6 @@
-"""A point at which the equations do not determine the unknowns is refused."""
+"""Solutions of a search are refused if the equations do not determine them, or if they exceed a bound."""
+
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -15,3 +17,24 @@ def test_newtons_method_refuses_fewer_independent_equations_than_unknowns():
     point = np.array([0.5 if name.startswith("a") else 0.0 for name in problem.ansatz.free])
     with pytest.raises(NotProved, match="singular"):
         module._newton(problem, point, {}, list(range(len(point))))
+
+
+@pytest.mark.parametrize(("size", "refused"), [("0.53867513459", True), ("0.5386751346", False)])
+def test_no_coefficient_exceeds_the_bound_by_less_than_the_errors_of_the_search(size, refused):
+    # The largest coefficient of the only method is 1/4 + sqrt(3)/6 = 0.538675134594...
+    problem = find_problem("rk", 4, Spec(stages=2, size=Fraction(size)), "full")
+    r = 3**0.5 / 6
+    values = {"b1": 0.5, "b2": 0.5, "a11": 0.25, "a12": 0.25 - r, "a21": 0.25 + r, "a22": 0.25}
+    point = [values[name] for name in problem.ansatz.free]
+    if refused:
+        with pytest.raises(NotProved, match="a21 exceeds the bound"):
+            module.certify_solution(problem, point, "m", "a test")
+    else:
+        assert module.certify_solution(problem, point, "m", "a test").certificate == "exact"
+
+
+def test_a_coefficient_may_equal_the_bound():
+    problem = find_problem("rk", 2, Spec(stages=2, size=Fraction(1, 2)), "full")
+    values = {"b1": 0.5, "b2": 0.5, "a11": 0.5, "a12": 0.0, "a21": 0.5, "a22": 0.0}
+    point = [values[name] for name in problem.ansatz.free]
+    assert module.certify_solution(problem, point, "m", "a test").certificate == "exact"
