@@ -54,14 +54,22 @@ def count(x: object, name: str, least: int = 0) -> int:
     return number
 
 
-def numbers(inputs: object) -> tuple[float, ...]:
-    """Return the run-time inputs of one step as floats.
+def input_values(inputs: object, amount: int) -> tuple[float, ...]:
+    """Return the values of the ``amount`` run-time inputs at one time as floats.
 
-    TypeError is raised if ``inputs`` is not a sequence of numbers.
+    TypeError is raised if ``inputs`` is not a sequence of ``amount`` real numbers.
+
+    >>> input_values([1, 2], 3)
+    Traceback (most recent call last):
+    TypeError: expected 3 inputs, found 2
     """
-    if isinstance(inputs, str) or not isinstance(inputs, Iterable):
+    scalar = getattr(inputs, "ndim", 1) == 0
+    if isinstance(inputs, str | bytes) or not isinstance(inputs, Iterable) or scalar:
         raise TypeError(f"expected a sequence of numbers for inputs, found {described(inputs)}")
-    return tuple(real(x, "inputs") for x in inputs)
+    values = tuple(real(x, "inputs") for x in inputs)
+    if len(values) != amount:
+        raise TypeError(f"expected {amount} inputs, found {len(values)}")
+    return values
 
 
 def monotone(t: float, times: object) -> list[float]:

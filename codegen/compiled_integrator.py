@@ -244,7 +244,8 @@ class _Buffers:
 class _Callback:
     """A Python function that C code calls to compute the run-time inputs at a given time.
 
-    If the Python function raises an error, the attribute ``failure`` is this error.
+    ``function`` returns one float for each run-time input. If it raises an error, the attribute ``failure``
+    is this error.
     """
 
     def __init__(self, ffi: Any, interface: Interface, function: Signals) -> None:
@@ -257,9 +258,7 @@ class _Callback:
         inputs = [math.nan] * self.count
         try:
             if self.failure is None:
-                inputs = [float(x) for x in self.function(t)]
-            if len(inputs) != self.count:
-                raise TypeError(f"expected {self.count} inputs, found {len(inputs)}")
+                inputs = list(self.function(t))
         except BaseException as error:  # a Python exception must not pass through C code
             self.failure, inputs = error, [math.nan] * self.count
         for k, x in enumerate(inputs):

@@ -15,7 +15,8 @@ from functools import cached_property
 from typing import Any
 
 from codegen import lanes
-from codegen.argument import count, described, end_of_run, monotone, numbers, real
+from codegen.argument import count, described, end_of_run, input_values, monotone, real
+from codegen.array_module import real_array
 from codegen.arrival import Arrival as Arrival
 from codegen.arrival import Begun, joined
 from codegen.arrival import Signals as Signals
@@ -100,7 +101,8 @@ class Integrator(RunToEnd):
 
         ``inputs`` are the values of the run-time inputs, in the order of ``interface.inputs``.
         """
-        held = None if inputs is None else numbers(inputs)
+        names = self.interface.inputs
+        held = input_values(inputs, len(names)) if names and inputs is not None else inputs
         function = None if held is None else lambda t: held
         return self.run(state, h, 1, t, statistics, function, **parameters)
 
@@ -170,6 +172,7 @@ class Integrator(RunToEnd):
         if not math.isfinite(h) or h == 0:
             raise ValueError(f"expected a finite step size other than 0, found {h}")
         rows: list[Sequence[float]] = []
+        completed = 0
         for time in monotone(t, times):
             # If the exact quotient is an integer n, the computed quotient can be slightly larger than n. With
             # the factor 1 - 1e-12, ``math.ceil`` still returns n, and not n + 1.
@@ -180,7 +183,13 @@ class Integrator(RunToEnd):
                 )
             steps = count(math.ceil(quotient), "steps")
             if steps:
-                final, _ = self._call(begun, t, (time - t) / steps, steps, 0)
+                try:
+                    final, _ = self._call(begun, t, (time - t) / steps, steps, 0)
+                except StepFailed as failure:
+                    # ``failure`` counts only the steps after the last output time.
+                    step = completed + failure.step
+                    raise StepFailed(failure.status, step, failure.state, failure.reason) from None
+                completed += steps
                 begun = replace(begun, numbers=list(final))
             rows.append(begun.numbers)
             t = time
@@ -358,7 +367,8 @@ class Integrator(RunToEnd):
             raise TypeError("this module has no derivative of its step; emit it with jacobian=True")
         if bool(self.interface.inputs) != (inputs is not None):
             raise TypeError(f"expected values for {', '.join(self.interface.inputs) or 'no inputs'}")
-        held = None if inputs is None else list(numbers(inputs))
+        # C reads one number for each input, so a shorter list would be read beyond its end.
+        held = None if inputs is None else list(input_values(inputs, len(self.interface.inputs)))
         form, values = read(state, self.interface.size, self.fields)
         begun = Begun(form, values, self._values(parameters), solvers=self.interface.solvers)
         return form.matrix(self._derive(begun, real(t, "t"), real(h, "h"), held))
@@ -391,7 +401,7 @@ class Integrator(RunToEnd):
             form,
             values,
             self._values(parameters),
-            inputs,
+            None if inputs is None else lambda t: input_values(inputs(t), len(names)),
             statistics,
             self.interface.solvers,
         )
@@ -441,13 +451,11 @@ def _held(names: Sequence[str], inputs: object, number: int) -> list[tuple[str, 
     """Return pairs (name, value) for the run-time inputs.
 
     M is the length of ``names``, and N is ``number``, the number of systems. If the shape of ``inputs`` is
-    neither (M,) nor (N, M), ValueError is raised.
+    neither (M,) nor (N, M), ValueError is raised. TypeError is raised for entries that are not real numbers.
     """
-    import numpy as np
-
     if not names:
         return []
-    table = np.asarray(inputs)
+    table = real_array(inputs, "inputs")
     if table.shape not in ((len(names),), (number, len(names))):
         raise ValueError(
             f"expected inputs of shape ({len(names)},) or ({number}, {len(names)}), found {table.shape}"

@@ -80,8 +80,8 @@ def columns(states: object, size: int, real: str, fields: Fields = ()) -> Any:
 def in_place(out: object, size: int, real: str) -> Any:
     """Return the view ``out.T`` of the array ``out``. Emitted C requires the layout of this view.
 
-    ValueError is raised unless ``out`` is a writeable array of shape (N, size) in Fortran order, with the
-    number format ``real`` and N > 0.
+    ValueError is raised unless ``out`` is a writeable, aligned array of shape (N, size) in Fortran order,
+    with the number format ``real`` and N > 0.
     """
     import numpy as np
 
@@ -90,10 +90,11 @@ def in_place(out: object, size: int, real: str) -> Any:
     if given is None or given.ndim != 2 or given.shape[1] != size or given.dtype != kind or not len(given):
         shown = described(out) if given is None else f"an array of shape {given.shape} and type {given.dtype}"
         raise ValueError(f"expected an array of shape (N, {size}) and type {kind} for out, found {shown}")
-    if not given.T.flags.c_contiguous or not given.flags.writeable:
+    # A C program may read a number only at an address that is a multiple of the number's size.
+    if not given.T.flags.c_contiguous or not given.flags.behaved:
         raise ValueError(
-            "expected a writeable array in Fortran order as the argument out; numpy.asfortranarray returns "
-            "such an array"
+            "expected a writeable, aligned array in Fortran order as the argument out; "
+            'numpy.array(states, order="F") returns such an array'
         )
     return given.T
 

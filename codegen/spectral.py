@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import types
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -169,7 +169,8 @@ class CompiledSpectral(Spectral):
         if status != Status.OK:
             return u, status, 0
         transform = self._ffi.new(f"{self.interface.prefix}transform *")
-        callbacks = self._numpy()  # Python must not delete the callbacks while C calls them
+        failures: list[BaseException] = []
+        callbacks = self._numpy(failures)  # Python must not delete the callbacks while C calls them
         if self._function("fft_prepare")(n, self._pointer(memory)) == Status.OK:
             transform[0] = self._function("fft")(self._pointer(memory))
         else:
@@ -178,6 +179,8 @@ class CompiledSpectral(Spectral):
         completed = self._ffi.new("size_t *")
         arguments = [*values, self._pointer(tables), transform, self._pointer(work), completed]
         status = Status(self._function("run")(n, self._pointer(u), *time, steps, *arguments))
+        if failures:
+            raise failures[0]
         return u, status, int(completed[0])
 
     def _memory(self, name: str, n: int) -> Floats:
@@ -186,18 +189,32 @@ class CompiledSpectral(Spectral):
 
         return np.empty(int(self._function(name)(n)))
 
-    def _numpy(self) -> tuple[Any, Any]:
-        """Return the forward and the backward Fourier transform of NumPy as functions that C can call."""
+    def _numpy(self, failures: list[BaseException]) -> tuple[Any, Any]:
+        """Return the forward and the backward Fourier transform of NumPy as functions that C can call.
+
+        If a transform raises an error, for example KeyboardInterrupt, the error is added to ``failures``, and
+        all results are NaNs.
+        """
         import numpy as np
 
         def doubles(pointer: Any, n: int) -> Floats:
             return np.frombuffer(self._ffi.buffer(pointer, 8 * n), dtype=np.float64)
 
+        def store(array: Floats, transform: Callable[[], Floats]) -> None:
+            try:
+                # The step tests its results, so NumPy need not warn about infinities.
+                with np.errstate(all="ignore"):
+                    array[:] = transform()
+            except BaseException as error:  # a Python exception must not pass through C code
+                failures.append(error)
+                array[:] = np.nan
+
         def forward(n: int, values: Any, spectrum: Any, context: Any) -> None:
-            doubles(spectrum, n + 2)[:] = np.fft.rfft(doubles(values, n)).view(np.float64)
+            store(doubles(spectrum, n + 2), lambda: np.fft.rfft(doubles(values, n)).view(np.float64))
 
         def backward(n: int, spectrum: Any, values: Any, context: Any) -> None:
-            doubles(values, n)[:] = np.fft.irfft(doubles(spectrum, n + 2).view(np.complex128), n)
+            modes = doubles(spectrum, n + 2).view(np.complex128)
+            store(doubles(values, n), lambda: np.fft.irfft(modes, n))
 
         kinds = ("size_t, const double *, double *, void *", "size_t, double *, double *, void *")
         first, second = (f"void({kind})" for kind in kinds)

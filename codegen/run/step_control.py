@@ -119,7 +119,9 @@ def weighted(plan: Plan) -> Function:
             (
                 Assign(old, size(before[i])),
                 Assign(new, size(after[i])),
-                Assign(ratio, error[i] / scale),
+                # If ``atol`` is zero and y_i remains zero, error_i and its scale are zero. The quotient would
+                # be a NaN, and every step would be rejected.
+                Assign(ratio, select(either(error[i] > 0.0, error[i] < 0.0), error[i] / scale, error[i])),
                 Assign(total, total + ratio * ratio),
             ),
         ),
@@ -194,7 +196,10 @@ class Controlled:
         numbers = both(*(is_finite(x) for x in (self.length, self.now, self.end)))
         memory = [Array(plan.memory, zero=True)] if plan.remembers else []
         # A rough first step size is enough, because it may change by a large factor after the first trial.
-        chosen = size(self.end - self.now) / FIRST
+        span, first = self.end - self.now, real("first")
+        chosen = size(span) / FIRST
+        # A time interval of a few rounding errors is one step, because a sixteenth of it does not change t.
+        long = either(first > self.now, first < self.now)
         return (
             Assign(STATUS, code(OK)),
             Assign(self.accepted_steps, whole(0)),
@@ -203,7 +208,13 @@ class Controlled:
             Assign(self.now, self.t[0]),
             Assign(self.length, size(self.h[0])),
             Assign(self.starting, self.length <= 0.0),
-            If(self.starting, (Assign(self.length, chosen),)),
+            If(
+                self.starting,
+                (
+                    Assign(first, self.now + span / FIRST),
+                    Assign(self.length, select(long, chosen, size(span))),
+                ),
+            ),
             Assign(self.previous, number(1.0)),
             If(negated(both(numbers, usable_tolerances())), (Assign(STATUS, code(BAD_STEP)),)),
             *memory,

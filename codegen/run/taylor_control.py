@@ -340,8 +340,13 @@ class _Controlled:
     def advise(self) -> Function:
         """Return the function that computes the step size from the Taylor coefficients."""
         n, p = self.size, self.degree
-        epsilon, smaller, reached = real("epsilon"), real("smaller"), real("reached")
-        body: list[Statement] = [Assign(epsilon, ATOL + RTOL * largest(self.start))]
+        permitted, epsilon = real("permitted"), real("epsilon")
+        smaller, reached = real("smaller"), real("reached")
+        body: list[Statement] = [
+            Assign(permitted, ATOL + RTOL * largest(self.start)),
+            # If ``atol`` and the state are zero, no error is permitted, and the step size would be zero.
+            Assign(epsilon, select(permitted > 0.0, permitted, number(LEAST))),
+        ]
         # The last Taylor coefficient alone can mislead: it may be zero, because every second Taylor
         # coefficient of an even function is zero. Therefore the last two coefficients are used.
         for k, result in ((p - 1, smaller), (p, reached)):

@@ -203,6 +203,25 @@ def test_what_the_tolerance_forbids_ends_at_the_last_good_state(target):
     assert failure.value.status == Status.NOT_FINITE
 
 
+@pytest.mark.parametrize("target", ["c", "python"])
+@pytest.mark.parametrize("method", ["cf:cf43", "taylor(12)"])
+def test_a_zero_that_remains_zero_needs_no_absolute_tolerance(method, target):
+    integrator = load(emitted("free_rigid_body", method, target))
+    for rest in ([0.0, 0.0, 2.0], [0.0, 0.0, 0.0]):
+        arrival = integrator.adaptive(rest, 0, 1, rtol=1e-6, atol=0)
+        assert (arrival.state, arrival.t, arrival.rejected) == (rest, 1.0, 0)
+
+
+@pytest.mark.parametrize("target", ["c", "python"])
+def test_a_time_interval_of_one_rounding_error_is_one_step(target):
+    emission = emitted("free_rigid_body", "cf:cf43", target)
+    start, integrator = emission.manifest["initial"], load(emission)
+    for t, end in ((1.0, math.nextafter(1.0, 2)), (1.0, math.nextafter(1.0, 0)), (0.0, 5e-324)):
+        arrival = integrator.adaptive(start, t, end)
+        assert (arrival.t, arrival.accepted, arrival.rejected) == (end, 1, 0)
+        assert arrival.state == pytest.approx(integrator.run(start, end - t, 1), abs=1e-16)
+
+
 def test_a_failed_run_states_the_number_of_rejected_steps_in_both_targets():
     counts = []
     for target in ("c", "python"):

@@ -6,6 +6,7 @@ import math
 import random
 from functools import cache
 
+import numpy as np
 import pytest
 from sympy import Matrix, Symbol, cos, sin
 
@@ -152,6 +153,45 @@ def test_what_an_input_raises_is_raised_and_nothing_else(target):
         driven.run(start, 0.1, 10)
     with pytest.raises(TypeError, match="expected no inputs"):
         load(emitted("rkmk:rk4", target, ())).run(start, 0.1, 10, inputs=torques)
+
+
+@pytest.mark.parametrize("target", ["c", "python"])
+@pytest.mark.parametrize("method", ["rkmk:rk4", "vcg:midpoint"])
+@pytest.mark.parametrize("error", [ZeroDivisionError, ValueError])
+def test_an_arithmetic_error_of_an_input_is_raised(method, target, error):
+    def broken(t):
+        raise error("torque")
+
+    driven, start = load(emitted(method, target)), emitted(method, target).manifest["initial"]
+    with pytest.raises(error, match="torque"):
+        driven.run(start, 0.1, 10, inputs=broken)
+
+
+@pytest.mark.parametrize("target", ["c", "python"])
+@pytest.mark.parametrize(
+    ("values", "message"),
+    [
+        (["1", "0", "0"], "expected a real number for inputs, found '1' of type str"),
+        ("100", "expected a sequence of numbers for inputs, found '100' of type str"),
+        ([np.complex128(1j), 0, 0], "expected a real number for inputs, found 1j of type complex128"),
+        (None, "expected a sequence of numbers for inputs, found an object of type NoneType"),
+        (np.array(1.0), "expected a sequence of numbers for inputs, found an object of type ndarray"),
+    ],
+)
+def test_values_of_inputs_that_are_no_real_numbers_have_a_message(target, values, message):
+    driven, start = load(emitted("rkmk:rk4", target)), emitted("rkmk:rk4", target).manifest["initial"]
+    with pytest.raises(TypeError, match=message):
+        driven.run(start, 0.1, 10, inputs=lambda t: values)
+
+
+@pytest.mark.parametrize("target", ["c", "python"])
+def test_a_run_through_times_counts_all_steps_before_a_failure(target):
+    driven, start = load(emitted("rkmk:rk4", target)), emitted("rkmk:rk4", target).manifest["initial"]
+    with pytest.raises(StepFailed, match=r"^step 8: ") as failure:
+        driven.trajectory(
+            start, 0.1, t_eval=[0.2, 0.5, 1.0], inputs=lambda t: torques(t) if t < 0.71 else [math.nan, 0, 0]
+        )
+    assert failure.value.step == 7
 
 
 @pytest.mark.parametrize("target", ["c", "python"])

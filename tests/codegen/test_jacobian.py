@@ -186,6 +186,9 @@ def test_inputs_are_held_and_momenta_are_those_of_the_frame(target):
     assert np.abs(J[3:, 3] - (up - down)[9:] / 2e-5).max() < 1e-9
     with pytest.raises(TypeError, match="expected values for u0, u1, u2"):
         driven.jacobian(start, 0.05)
+    for few in ([], [0.1, 0.2]):
+        with pytest.raises(TypeError, match=f"expected 3 inputs, found {len(few)}"):
+            driven.jacobian(start, 0.05, inputs=few)
     space = np.array(
         load(emitted("dipole", "vcg:midpoint", target)).jacobian(
             emitted("dipole", "vcg:midpoint").manifest["initial"], 0.05

@@ -488,3 +488,24 @@ def test_the_example_of_the_header_runs_under_sanitizers(tmp_path, name):
     found = subprocess.run([tmp_path / "main"], capture_output=True, text=True, check=False)
     assert "status" in found.stdout
     assert not found.stderr
+
+
+def test_an_error_in_a_transform_of_numpy_is_raised(monkeypatch):
+    equation, transform, calls = module("quiet", "cf:cf4", "c"), np.fft.rfft, []
+
+    def interrupted(values):
+        calls.append(values)
+        if len(calls) == 3:
+            raise KeyboardInterrupt
+        return transform(values)
+
+    monkeypatch.setattr(np.fft, "rfft", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        equation.run(equation.start(20), 0.01, 5)
+
+
+def test_an_overflow_in_a_transform_of_numpy_is_a_status():
+    equation = module("quiet", "cf:cf4", "c")
+    with np.errstate(all="raise"):
+        result = equation.run(1e300 * equation.start(20), 0.01, 5)
+    assert result.status == Status.NOT_FINITE

@@ -55,13 +55,16 @@ class FunctionPrinter:
         # Triple quotes in the text would end the docstring. A backslash would start an escape sequence.
         about = function.about.replace("\\", "\\\\").replace('"""', "'''")
         lines = [*head, *docstring(about)] if about else head
-        # A guard is a ``try`` statement that contains the body.
-        depth = 2 if function.guard else 1
-        body = _Body(self, function).block(function.body, depth)
+        printed = _Body(self, function)
         if not function.guard:
-            return [*lines, *body]
+            return [*lines, *printed.block(function.body, 1)]
+        # A guard is a ``try`` statement. The guard must not catch errors of the caller's function for the
+        # run-time inputs, so the calls of this function come before the guard.
+        start = _unguarded(function.body)
+        lines += printed.block(function.body[:start], 1)
+        lines += ["    try:", *printed.block(function.body[start:], 2)]
         # Functions of ``math`` raise ValueError for an invalid argument.
-        return [*lines, "    try:", *body, "    except (ArithmeticError, ValueError):", *self.guard(function)]
+        return [*lines, "    except (ArithmeticError, ValueError):", *self.guard(function)]
 
     def guard(self, function: Function) -> list[str]:
         """Return the body of the ``except`` clause of ``function``."""
@@ -323,6 +326,15 @@ class _Body:
         # The helper ``invert`` has no leading underscore.
         called = "invert" if name == "invert" else f"_{name}"
         yield from filled(f"{start}{called}(", given, ")", depth)
+
+
+def _unguarded(body: Body) -> int:
+    """Return the number of statements at the start of ``body`` up to the last call of ``sample``.
+
+    The result is 0 if ``body`` has no such call.
+    """
+    calls = [k for k, x in enumerate(body) if isinstance(x, Call) and x.function == "sample"]
+    return calls[-1] + 1 if calls else 0
 
 
 def _entry(term: Term) -> int | None:

@@ -141,6 +141,23 @@ def test_a_batch_in_place_is_not_copied():
     assert (given == expected).all()
 
 
+def test_an_array_with_misaligned_numbers_is_refused():
+    integrator = codegen.load(emitted("free_rigid_body", "cf:cf4"))
+    given = starts(integrator, 5)
+    shifted = np.zeros(given.nbytes + 1, np.uint8)[1:].view(float).reshape(3, 5).T
+    with pytest.raises(ValueError, match="expected a writeable, aligned array in Fortran order"):
+        integrator.run_batch(given, 0.1, 3, out=shifted)
+
+
+def test_wrong_inputs_of_a_batch_have_a_message():
+    integrator = codegen.load(emitted("actuated_rigid_body", "cf:cf4", inputs=INPUTS))
+    states = starts(integrator, 2)
+    with pytest.raises(ValueError, match="expected an array of inputs, found rows of different lengths"):
+        integrator.run_batch(states, 0.05, 4, inputs=[[1.0, 2.0], [1.0]])
+    with pytest.raises(TypeError, match="expected real numbers"):
+        integrator.run_batch(states, 0.05, 4, inputs=[1j, 0])
+
+
 def test_single_precision_has_batches():
     integrator = codegen.load(emitted("driven_spin", "cf:cf4", precision="single"))
     states = starts(integrator, 3)

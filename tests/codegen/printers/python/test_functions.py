@@ -9,7 +9,7 @@ from codegen.ir.precision import DOUBLE
 from codegen.printers.python.functions import FunctionPrinter
 from codegen.printers.python.terms import Constants
 from codegen.run.identifiers import identify
-from codegen.run.language import RAISES_NAN, RAISES_STATUS, Array, Assign, Function, Return, Unit, While
+from codegen.run.language import RAISES_NAN, RAISES_STATUS, Array, Assign, Call, Function, Return, Unit, While
 from codegen.run.terms import OK, Kind, code, number, real
 
 X, Y = real("x"), real("y")
@@ -66,3 +66,9 @@ def test_an_arithmetic_error_is_a_status_or_a_nan() -> None:
 def test_arrays_have_their_shape() -> None:
     body = (Array(real("a", 2, 3), zero=True), Return(real("a", 2, 3)[1][2]))
     assert compiled(Function("f", "", (X,), body, Kind.REAL))(0.0) == 0.0
+
+
+def test_a_guard_does_not_catch_errors_of_the_callers_function() -> None:
+    body = (Call("sample", (X, Y), (STATE,)), Return(1.0 / STATE[0]))
+    printed = lines(Function("f", "", (X, Y), body, Kind.REAL, RAISES_NAN))
+    assert printed[1:3] == ["    state = _sampled(x, y)", "    try:"]
