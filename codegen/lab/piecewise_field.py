@@ -37,10 +37,11 @@ the time scales of the solution.
 """
 
 FARTHER, UNCLEAR = 1e-20, 1e-55
-"""A longer time, and the largest distance from a boundary between two cases that can be a rounding error.
+"""A time that is longer than AHEAD, and a bound for rounding errors.
 
-The state after FARTHER decides if the state after AHEAD is at most UNCLEAR away from the boundary. A solution
-that touches the boundary moves away from it by about FARTHER^2, which is much larger than UNCLEAR.
+If |x| <= UNCLEAR at the time t + AHEAD, the sign of x can be wrong because of rounding errors. Then the sign
+of x at the time t + FARTHER replaces the sign at the time t + AHEAD. For example, let x = t^2 and t = 0. At
+the time FARTHER, x is FARTHER^2 = 1e-40, which is much larger than UNCLEAR.
 """
 
 NEAR = (1e-5, 1e-6)

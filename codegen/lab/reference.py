@@ -224,7 +224,10 @@ def reference(scene: Problem, end: float = math.inf) -> Reference:
 def _end(
     scene: Problem, columns: int, exponent: int, finish: float
 ) -> tuple[Vector, tuple[tuple[int, float], ...], _Peaks]:
-    """Return the state at the end of the time span, pairs (kink, time) of :class:`Reference`, and peaks.
+    """Return the final state, the kinks with their times, and the largest coordinates and velocities.
+
+    A kink is a point of the solution where the field is not smooth. For each kink, there is a pair (k, time),
+    where k is the number of continuous derivatives of the field at the kink, or -1 at a discontinuity.
 
     The tolerance is 10^``exponent``.
     Raises SceneError if ``time.monotonic()`` exceeds ``finish`` before the computation ends.

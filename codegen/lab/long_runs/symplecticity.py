@@ -184,8 +184,9 @@ def _scales(
     contains coordinate k.
 
     - The scale of coordinate k of xi is s_k = min_b |q_b|/|v_b|. Blocks with q_b = 0 or v_b = 0 are omitted.
-    - The scale ``action`` is max_k s_k m_k. If this maximum is zero, ``action`` is max_k s_k times max_k m_k.
-    - If all blocks are omitted for a coordinate k, the maxima above are computed without this k. Then s_k is
+    - The scale of coordinate k of nu is ``action``/s_k, where ``action`` = max_k (s_k m_k). If all products
+      s_k m_k are zero, ``action`` is (max_k s_k) (max_j m_j), where j runs over all coordinates.
+    - If all blocks are omitted for a coordinate k, the maxima over k are computed without this k. Then s_k is
       ``action``/m_k for m_k > 0, and the largest of the other scales for m_k = 0.
 
     The norms |q_b|, |v_b| and m_k are computed before and after the step. For each norm, the larger of the

@@ -149,7 +149,7 @@ class Convergence:
 
     @property
     def _crossing(self) -> float:
-        """The upper bound from the kinks that the solution crosses."""
+        """An upper bound of the observed order: the bound from :attr:`kinks`, or infinity without kinks."""
         # If k derivatives of the field are continuous at a kink, the local error of the step across the kink
         # is proportional to h^(k+2).
         return min(self.kinks) + 2 if self.kinks else math.inf
@@ -205,8 +205,8 @@ class Convergence:
         for step, place, bound in zip(("first", "last"), ("start", "end"), self.ends, strict=True):
             if bound < self.stated.order:
                 reasons.append(
-                    f"the {step} step evaluates the field at or beyond the {place} of the solution, where "
-                    "the field is not smooth"
+                    f"the {place} of the solution is a point where the field is not smooth, and the {step} "
+                    "step evaluates the field at this point or on its other side"
                 )
         return (
             f"{', and '.join(reasons)}; therefore runs with equal steps have at most order {self.limit}"
@@ -217,7 +217,11 @@ class Convergence:
         return "one point" if len(self.kinks) == 1 else f"{len(self.kinks)} points"
 
     def _aligned(self) -> str:
-        """Return the condition of the highest order if the runs of the shortest steps violate it."""
+        """Return the words " if no step ends at such a point" if the last slope is larger than the bound.
+
+        The bound is :attr:`limit`. If no kink that the solution crosses gives this bound, or if the last
+        slope is not larger, the text is empty.
+        """
         last = self.refinement.observed
         if self._crossing > self.limit or last is None or last <= self.limit + TOLERANCE:
             return ""
@@ -304,9 +308,10 @@ def converge(
 
     - ``stated``: the order to test.
     - ``exact``: the reference solution.
-    - ``steps``: the numbers of steps of the runs, by default 5, 10, 20, ... up to ``runner.most_steps``. If
-      the solution crosses points where the field is not smooth, other numbers are used if this is necessary
-      for steps that end at these points.
+    - ``steps``: the numbers of steps of the runs, by default 5, 10, 20, ... up to ``runner.most_steps``.
+      The default can be different if the solution crosses a point where the field is not smooth. For
+      example, for a point at one third of the time span, the default can be 6, 12, 24, ..., because a step
+      then ends at this point.
     - ``to_rounding``: If True, the runs continue until rounding errors dominate.
     - ``form``: the form of the equations that ``runner`` integrates, or None for the equations of the scene.
 

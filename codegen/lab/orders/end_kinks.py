@@ -1,10 +1,16 @@
-"""Points where the field is not smooth, at the two ends of a solution.
+"""Does a kink at the start or at the end of a solution limit the order of a method in runs?
 
-The solution does not cross a point at its end. But a stage of the first step can be evaluated before the
-initial time (a negative abscissa), and a stage of the last step after the final time (an abscissa above 1).
-Such a step is compared with the same step for a smooth field, in which each selection
-(:mod:`codegen.ir.smoothness`) always has the case that applies along the solution. If the difference of the
-two steps is proportional to h^m, where h is the step size, the order of runs on this scene is at most m.
+A *kink* is a point where the field is not smooth. For example, a field that contains abs(x) has a kink at
+x = 0. The two *ends* of a solution are its initial point and its final point.
+
+If an end is a kink, the solution is on one side of the kink. But a stage can be on the other side. In the
+first step, a stage with a negative abscissa is before the initial time. In the last step, a stage with an
+abscissa above 1 is after the final time.
+
+The *smooth field* has the same formula on both sides of the kink: the formula that applies along the
+solution. For example, if x > 0 along the solution, the smooth field contains x in place of abs(x). A step for
+the field is compared with a step for the smooth field. If the results of the two steps differ by about c h^m,
+where h is the step size, the order in runs is at most m. The number m is the *bound* from this end.
 """
 
 from __future__ import annotations
@@ -29,23 +35,26 @@ DIGITS = 60
 AWAY = 1e-20
 """A short time, as a fraction of the time span.
 
-The signs of formulas at this time after the start, or before the end, give the cases along the solution.
+At a kink, for example at x = 0 for abs(x), the sign of x is not known. Therefore the sign of x is computed a
+short time after the initial time, or a short time before the final time.
 """
 
 SIZES = (1e-3, 1e-4)
-"""The step sizes of the compared steps, as fractions of the time span.
+"""Two step sizes h and H, as fractions of the time span.
 
-A point where the field is not smooth counts as an end of the solution only if the steps of these sizes show
-it. If the point is farther away, sufficiently short steps do not reach it.
+If a kink changes the results of steps of these sizes by d and D, the bound is log(d/D) / log(h/H).
 """
 
 INSIDE = 100
-"""No method has a stage that is INSIDE step sizes before or after its step."""
+"""The number 100: :func:`undefined_beyond` makes a step of size h at the distance 100 h from an end.
+
+The stages of this step are inside the time span if their abscissae are between -100 and 101.
+"""
 
 EQUAL = 1e-26
-"""Two steps are equal if no coordinate differs by more than EQUAL times max(1, s).
+"""Two states a and b near an end y of a solution are equal if |a - b| <= EQUAL max(1, |y|).
 
-Here s is the largest absolute value of a coordinate. EQUAL exceeds the largest error of a reference solution
+Here |y| is the maximum norm. EQUAL exceeds the largest error of a reference solution
 (:data:`codegen.lab.reference.AGREEMENT`).
 """
 
@@ -53,10 +62,14 @@ assert EQUAL > AGREEMENT
 
 
 def end_limits(compiled: Optimised, end: Vector) -> tuple[float, float]:
-    """Return two upper bounds of the order, from the first and from the last step of a run.
+    """Which upper bounds of the order in runs follow from kinks at the start and at the end of the solution?
 
-    ``end`` is the exact state at the end of the time span. A bound is infinity if the stages of the step do
-    not leave the smooth part of the field, or if one of the steps cannot be computed.
+    A kink is a point where the field is not smooth. The first returned number is the bound from a kink at the
+    start, and the second is the bound from a kink at the end. For example, (2, inf) means that a kink at the
+    start limits the order to 2.
+
+    A bound is infinity if there is no kink, if the kink does not change the results of steps, or if the bound
+    cannot be computed. ``end`` is the exact state at the end of the time span.
     """
     scene = compiled.scene
     if not any(selections(roots) for roots in _formulas(scene)):
@@ -67,11 +80,14 @@ def end_limits(compiled: Optimised, end: Vector) -> tuple[float, float]:
 
 
 def undefined_beyond(compiled: Optimised, end: Vector) -> str:
-    """Return a text if a stage of the first or of the last step is at a time at which the field is undefined.
+    """Does a run fail because a stage is outside the time span, where the field is not defined?
 
-    Otherwise the text is empty. ``end`` is the exact state at the end of the time span. A very short first
-    step must fail, and the same step must succeed at a slightly later time, or the same for the last step and
-    a slightly earlier time.
+    If so, the returned text says which step has this stage, the first or the last. Otherwise the text is
+    empty. ``end`` is the exact state at the end of the time span.
+
+    The first step is the reason if a very short step at the initial time fails, but succeeds at a slightly
+    later time. The last step is the reason if a very short step at the final time fails, but succeeds at a
+    slightly earlier time.
     """
     first, last = (PreciseDomain(0, DIGITS).rational(*x.as_integer_ratio()) for x in compiled.scene.span)
     start, h = compiled.scene.initial(PreciseDomain(0, DIGITS)), (last - first) * SIZES[-1]
@@ -91,9 +107,10 @@ def undefined_beyond(compiled: Optimised, end: Vector) -> str:
 
 
 def _limit(compiled: Optimised, state: Vector, t: Scalar, span: Scalar) -> float:
-    """Return the bound from the step at one end of the solution.
+    """Which upper bound of the order follows if an end (``state``, ``t``) of the solution is a kink?
 
-    ``span`` is the length of the time span. It is negative if (``state``, ``t``) is the end of the last step.
+    A kink is a point where the field is not smooth. If the end is no kink, the bound is infinity.
+    ``t`` + ``span`` is the time at the other end. Therefore ``span`` is negative if ``t`` is the final time.
     """
     scene = compiled.scene
     if not _on_boundary(scene, state, t):
@@ -109,9 +126,10 @@ def _limit(compiled: Optimised, state: Vector, t: Scalar, span: Scalar) -> float
 
 
 def _gap(compiled: Optimised, smooth: Optimised, state: Vector, t: Scalar, h: Scalar) -> float:
-    """Return the largest difference of a coordinate between a step for the field and for the smooth field.
+    """How far apart are the results of two steps, one with ``compiled`` and one with ``smooth``?
 
-    A negative ``h`` means that the step ends at ``state`` at the time ``t``.
+    The distance is measured in the maximum norm. For ``h`` > 0, the steps start at ``state`` at the time
+    ``t``. For ``h`` < 0, the steps have the size -``h`` and end near ``state`` at the time ``t``.
     """
     if h < 0:
         state, t, h = tuple(precise_step(smooth, state, t, h, digits=DIGITS)), t + h, -h
@@ -120,13 +138,12 @@ def _gap(compiled: Optimised, smooth: Optimised, state: Vector, t: Scalar, h: Sc
 
 
 def _formulas(scene: Problem) -> list[Sequence[Expr]]:
-    """Return the formulas of a scene from which a step is compiled, in groups."""
     energies = [x for x in (scene.hamiltonian, *scene.parts.values()) if x is not None]
     return [x for x in (scene.roots, *([x] for x in energies)) if x]
 
 
 def _on_boundary(scene: Problem, state: Vector, t: Scalar) -> bool:
-    """Return True if a selection changes its case at ``state`` and ``t``."""
+    """Is (``state``, ``t``) a point where an operation such as abs(x) changes its case?"""
     domain = PreciseDomain(0, DIGITS)
     values = scene.values(domain, state, t)
     nodes = [node for roots in _formulas(scene) for node in selections(roots)]
@@ -139,9 +156,13 @@ def _on_boundary(scene: Problem, state: Vector, t: Scalar) -> bool:
 
 
 def _smooth(scene: Problem, state: Vector, t: Scalar, away: Scalar) -> Problem:
-    """Return the scene with the cases that apply along the solution at the time ``t`` + ``away``."""
+    """Which scene has the smooth field that equals the field along the solution near the end ``t``?
+
+    In this scene, one formula replaces each operation with several cases. For example, x replaces abs(x) if
+    x > 0 at the time ``t`` + ``away``.
+    """
     domain = PreciseDomain(0, DIGITS)
-    # The midpoint rule is used, because the solution can touch the boundary of a case.
+    # For x = t^2, a step from t = 0 gives x = 0 with Euler's method, but x > 0 with the midpoint rule.
     half = _moved(state, scene.velocity(domain, state, t), away / 2)
     point = _moved(state, scene.velocity(domain, half, t + away / 2), away)
     values = scene.values(domain, point, t + away)

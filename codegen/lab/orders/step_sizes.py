@@ -55,13 +55,15 @@ NEAR = 1e-12
 
 @dataclass(frozen=True)
 class Places:
-    """The points of a solution where the field is not smooth, as a restriction of the numbers of steps.
+    """The permitted numbers of steps of a run: the multiples of ``unit``.
 
-    The error of a step across such a point depends on the position of the point in the step, so the slopes
-    settle only if this position is the same in all runs.
+    If the solution crosses points where the field is not smooth, the error of a step across such a point
+    depends on the position of the point in the step. Therefore the slopes settle only if this position is the
+    same in all runs.
 
-    - ``unit``: if all numbers of steps are multiples of ``unit``, a step ends at each of the points.
-    - ``known``: False if there are points, but no such ``unit``.
+    - ``unit``: the smallest number of equal steps with which a step ends at each of the points. For example,
+      ``unit`` is 3 for one point at a third of the time span. Without points, ``unit`` is 1.
+    - ``known``: False if there are points, but no suitable ``unit``. Then ``unit`` is 1.
     """
 
     unit: int = 1
@@ -71,12 +73,15 @@ class Places:
     def of(
         cls, kinks: Sequence[int], times: Sequence[float], span: tuple[Fraction, Fraction], stated: int
     ) -> Places:
-        """Return the restriction for a method of the order ``stated``.
+        """Return the permitted numbers of steps for a method of the order ``stated``.
 
-        ``kinks`` and ``times`` are attributes of :class:`codegen.lab.reference.Reference`. If the points
-        reduce the order, the numbers of steps are not restricted: steps that end at the points would hide the
-        reduction. At a jump of the field, rounding of the time decides which side a stage at the end of a
-        step belongs to, so steps do not end there.
+        ``kinks`` and ``times`` are attributes of :class:`codegen.lab.reference.Reference`. All numbers of
+        steps are permitted, and ``known`` is False, in the following cases:
+
+        - A point reduces the order. Steps that end at this point would hide the reduction.
+        - The field jumps at a point. Because of rounding of the time, a stage at the end of a step could be
+          on the wrong side of the jump.
+        - No ``unit`` up to :data:`LARGEST_UNIT` is suitable.
         """
         if not kinks:
             return cls()
@@ -215,14 +220,13 @@ def refine(
     :attr:`Refinement.settled` is True.
 
     The usable runs are the runs in :attr:`Refinement.clean`. After the doubling, the function adds runs if
-    all of the following three conditions hold: the slopes have not settled, the last run is excluded
-    (:attr:`Run.excluded`), and at least one run is usable. The added runs are:
+    all of the following four conditions hold: the slopes have not settled, the last run is excluded
+    (:attr:`Run.excluded`), at least one run is usable, and ``places.known`` is True. The added runs are:
 
     - runs with the numbers of steps in :data:`LONGER`,
     - two runs with about 6/5 n and 7/5 n steps for each usable run with n steps.
 
-    ``places`` changes these numbers of steps to permitted numbers. If the points in ``places`` are not at the
-    ends of steps, no runs are added: a point would have another position in its step in each run.
+    Each of these numbers of steps is increased to the next number that ``places`` permits.
     """
     runs: list[Run] = []
     places = places or Places()

@@ -33,8 +33,8 @@ def planar(f: list[Expr], start: object = (1, 0.3), span: object = (0, 1)) -> Pr
 @pytest.mark.parametrize(
     ("span", "name", "bounds"),
     [
-        ((0, 1), "first step evaluates the field at or beyond the start", (2, math.inf)),
-        ((1, 2), "last step evaluates the field at or beyond the end", (math.inf, 2)),
+        ((0, 1), "the start of the solution is a point where the field is not smooth", (2, math.inf)),
+        ((1, 2), "the end of the solution is a point where the field is not smooth", (math.inf, 2)),
     ],
 )
 def test_a_kink_at_an_end_that_a_stage_crosses_leaves_the_order_undecided(
