@@ -55,7 +55,7 @@ def count(x: object, name: str, least: int = 0) -> int:
 
 
 def input_values(inputs: object, amount: int) -> tuple[float, ...]:
-    """Return the values of the ``amount`` run-time inputs at one time as floats.
+    """Return ``inputs``, the values of the run-time inputs, as floats.
 
     TypeError is raised if ``inputs`` is not a sequence of ``amount`` real numbers.
 

@@ -92,8 +92,8 @@ def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int,
             # Exponents are added in a product, and multiplied in a power of a power.
             exponent = sum(n for _, n in inside)
             ranks[node.id] = (inside[0][0], exponent * (node.payload or 1))
-    # If y^3 is computed as y^2 y, y^2 is only an intermediate result. ``read`` contains the pair (node number
-    # of y, n) of each power y^n that is a root, or an argument of an operation such as z + y^3.
+    # ``read`` omits powers that are only factors of a higher power. For example, if y^3 in z + y^3 is
+    # computed as y^2 y, ``read`` contains the pair (node number of y, 3), but no pairs for y and y^2.
     read = {ranks[x.id] for x, by in used if x.id in ranks and (by is None or by.id not in ranks)}
     # If ``read`` contains y itself or an even power of y, no power of y is rewritten. For example, y and y^3
     # need one division in the form y = 1/sqrt x and y^3 = y y y, but two divisions in the form 1/sqrt x and

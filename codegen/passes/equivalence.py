@@ -173,8 +173,8 @@ class Reference:
             return
         # All step sizes are divided by 2**excess.
         excess = math.frexp(speed * STEPS[0] / REACH)[1]
-        # If ``moved`` is true, the size of the state is at least 1. Then a very small field would change the
-        # state by less than the tolerance AGREE in a moderate step, so longer steps are used.
+        # If the field is very small, a moderate step may change the state by less than the tolerance AGREE.
+        # Then no error would be found, so the steps from the nearby state (``moved``) are longer.
         if excess < 0 and not (moved and excess < SLOW):
             excess = 0
         last = math.inf

@@ -282,9 +282,9 @@ class ChainSolver:
 
         The border contains the coefficients of the last site's unknowns in the equations of all other sites.
         """
-        # The sites are 0, 1, ..., ``_INNER``. The chain is periodic, so the neighbours of site ``_INNER`` are
-        # the sites ``_BEFORE`` = ``_INNER`` - 1 and 0. Only their equations contain the unknowns of site
-        # ``_INNER``, so the border is zero in all other equations.
+        # The sites are 0, 1, ..., ``_INNER``, and the chain is periodic. Therefore the unknowns of site
+        # ``_INNER`` occur in the equations of its neighbours, the sites 0 and ``_BEFORE`` = ``_INNER`` - 1.
+        # In the equations of the sites 1, ..., ``_BEFORE`` - 1, the coefficients of these unknowns are zero.
         n, ends = self.n, []
         for site, block in ((whole(0), LEFT), (_BEFORE, RIGHT)):
             there = self.border(site, _I, _J)

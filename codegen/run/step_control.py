@@ -198,7 +198,7 @@ class Controlled:
         # A rough first step size is enough, because it may change by a large factor after the first trial.
         span, first = self.end - self.now, real("first")
         chosen = size(span) / FIRST
-        # A time interval of a few rounding errors is one step, because a sixteenth of it does not change t.
+        # If the interval is so short that t + span / FIRST rounds to t, the first step is the whole interval.
         long = either(first > self.now, first < self.now)
         return (
             Assign(STATUS, code(OK)),

@@ -380,10 +380,8 @@ def _wanted(tableau: Tableau, family: str | None) -> Iterator[tuple[Family, int 
 
 
 def _members(tableau: Tableau, family: str | None) -> tuple[list[tuple[Family, int | None]], list[str]]:
-    """Return pairs (family to check, claimed order), and a message for each claim without such a pair.
-
-    A claim in a family to which the method does not belong is wrong, although the file is valid.
-    """
+    """Return pairs (family to check, claimed order). Also return a message for each claimed family to which
+    the method does not belong."""
     wanted = [*_wanted(tableau, family)]
     if family is not None or not tableau.claims.orders:
         return wanted, []

@@ -241,12 +241,12 @@ def _require_size(problem: Problem, pinned: dict[int, Fraction], sharp: dict[int
     bound = problem.spec.size
     if bound is None:
         return
-    # The search allows for rounding errors of doubles. The errors of Newton's method are far below ERROR.
     ring = Balls(BITS)
     values = [
         ring.enclose(sharp[j]) if j in sharp else ring.constant(pinned[j])
         for j in range(len(problem.ansatz.free))
     ]
+    # Without ERROR, a coefficient that is equal to the bound could be rejected because of a rounding error.
     limit = ring.constant(bound + ERROR)
     for name, x in zip(problem.ansatz.cells, problem.ansatz.coefficients(values, ring), strict=True):
         if 1 in (ring.sign(x - limit), ring.sign(-x - limit)):

@@ -53,9 +53,9 @@ def runge_kutta(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
         constraints += [zero(A[0][j], "--fsal") for j in range(s)]
     if family.symplectic:
         refuse(family.label(), spec, ("explicit", "fsal"))
-        why = "symplecticity with nonzero weights"  # It implies 2 a_ii b_i = b_i^2.
+        why = "symplecticity with nonzero weights"  # b_i a_ij + b_j a_ji = b_i b_j for all i and j
         constraints += [equal(why, (2, A[i][i]), (-1, b[i])) for i in range(s)]
-        if spec.dirk:  # If a_ji = 0, it implies b_i a_ij = b_i b_j.
+        if spec.dirk:  # For j < i, a_ji = 0. Then b_i a_ij + b_j a_ji = b_i b_j gives a_ij = b_j.
             constraints += [equal(why, (1, A[i][j]), (-1, b[j])) for i in range(s) for j in range(i)]
     if structure == "abscissae":
         constraints.append(sum_to_one(b))

@@ -37,9 +37,9 @@ def orthogonal(generators: Sequence[Series], letters: Sequence[int], length: int
     """
     functionals: list[Functional] = []
     for content, words in sorted(_by_content(letters, length).items()):
-        # Each word denotes a column of a matrix. Each column that is a linear combination of the columns to
-        # its left gives a functional whose first word is the word of this column. This word should be a
-        # Lyndon word if possible, so the Lyndon words denote the rightmost columns.
+        # Each word denotes a column of a matrix. ``_kernel`` returns one functional for each column that is
+        # not a pivot column, and puts the word of this column first. Pivot columns are chosen from left to
+        # right. The Lyndon words are the rightmost columns, so that few of them are pivot columns.
         columns = sorted(words, key=lambda word: (is_lyndon(word), word))
         rows = list(_ideal(generators, letters, length, content))
         functionals += _kernel(rows, columns)
