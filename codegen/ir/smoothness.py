@@ -42,10 +42,10 @@ def combinations(nodes: Sequence[Expr]) -> list[Sides] | None:
 
     The result is None if there are more than :data:`MOST_CASES` combinations.
 
-    For example, abs(x) and abs(-x) have only two combinations of sides: (1, 0) for x > 0, and (0, 1) for
-    x < 0. The boundary x = 0 is ignored. The side of a piecewise polynomial is the index of the interval that
-    contains its argument. Two piecewise polynomials with the same argument and the same intervals have equal
-    sides.
+    The side of abs(x) is 1 for x > 0 and 0 for x < 0. For example, abs(x) and abs(-x) have only the two
+    combinations (1, 0) and (0, 1). The boundary x = 0 is ignored. The side of a piecewise polynomial is the
+    index of the interval that contains its argument. Two piecewise polynomials with the same argument and the
+    same intervals have equal sides.
     """
     keys = [_key(node) for node in nodes]
     counts: dict[object, int] = {

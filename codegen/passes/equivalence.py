@@ -174,7 +174,7 @@ class Reference:
         # All step sizes are divided by 2**excess.
         excess = math.frexp(speed * STEPS[0] / REACH)[1]
         # If the field is very small, a moderate step may change the state by less than the tolerance AGREE.
-        # Then no error would be found, so the steps from the nearby state (``moved``) are longer.
+        # Then a wrong program would pass the test. Therefore the steps are longer if ``moved`` is true.
         if excess < 0 and not (moved and excess < SLOW):
             excess = 0
         last = math.inf

@@ -37,9 +37,9 @@ def orthogonal(generators: Sequence[Series], letters: Sequence[int], length: int
     """
     functionals: list[Functional] = []
     for content, words in sorted(_by_content(letters, length).items()):
-        # Each word denotes a column of a matrix. ``_kernel`` returns one functional for each column that is
-        # not a pivot column, and puts the word of this column first. Pivot columns are chosen from left to
-        # right. The Lyndon words are the rightmost columns, so that few of them are pivot columns.
+        # Each word denotes a column of a matrix, and each column that is not a pivot column gives a
+        # functional with its word in the first pair. Pivots are chosen from left to right. The Lyndon words
+        # are the rightmost columns, so that few of them are pivot columns.
         columns = sorted(words, key=lambda word: (is_lyndon(word), word))
         rows = list(_ideal(generators, letters, length, content))
         functionals += _kernel(rows, columns)

@@ -184,10 +184,10 @@ def _scales(
     contains coordinate k.
 
     - The scale of coordinate k of xi is s_k = min_b |q_b|/|v_b|. Blocks with q_b = 0 or v_b = 0 are omitted.
-    - The scale of coordinate k of nu is ``action``/s_k, where ``action`` = max_k (s_k m_k). If all products
-      s_k m_k are zero, ``action`` is (max_k s_k) (max_j m_j), where j runs over all coordinates.
-    - If all blocks are omitted for a coordinate k, the maxima over k are computed without this k. Then s_k is
-      ``action``/m_k for m_k > 0, and the largest of the other scales for m_k = 0.
+    - If all blocks are omitted for a coordinate k, s_k is ``action``/m_k for m_k > 0, and max_j s_j for
+      m_k = 0. Here j runs over the coordinates for which not all blocks are omitted.
+    - The scale of coordinate k of nu is ``action``/s_k, where ``action`` = max_j (s_j m_j). If all products
+      s_j m_j are zero, ``action`` is max_j s_j times the largest of all m_k.
 
     The norms |q_b|, |v_b| and m_k are computed before and after the step. For each norm, the larger of the
     two values is used, because q or mu can be zero before or after the step.

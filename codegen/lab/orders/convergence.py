@@ -217,10 +217,10 @@ class Convergence:
         return "one point" if len(self.kinks) == 1 else f"{len(self.kinks)} points"
 
     def _aligned(self) -> str:
-        """Return the words " if no step ends at such a point" if the last slope is larger than the bound.
+        """Return a condition of the bound :attr:`limit` for the message, or an empty text.
 
-        The bound is :attr:`limit`. If no kink that the solution crosses gives this bound, or if the last
-        slope is not larger, the text is empty.
+        The bound holds if no step ends at a kink. The condition is needed if the last slope exceeds the bound
+        and the bound comes from a kink that the solution crosses.
         """
         last = self.refinement.observed
         if self._crossing > self.limit or last is None or last <= self.limit + TOLERANCE:

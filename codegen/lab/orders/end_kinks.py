@@ -1,4 +1,4 @@
-"""Does a kink at the start or at the end of a solution limit the order of a method in runs?
+"""Upper bounds of the observed order that follow from kinks at the start and at the end of a solution.
 
 A *kink* is a point where the field is not smooth. For example, a field that contains abs(x) has a kink at
 x = 0. The two *ends* of a solution are its initial point and its final point.
@@ -10,7 +10,7 @@ abscissa above 1 is after the final time.
 The *smooth field* has the same formula on both sides of the kink: the formula that applies along the
 solution. For example, if x > 0 along the solution, the smooth field contains x in place of abs(x). A step for
 the field is compared with a step for the smooth field. If the results of the two steps differ by about c h^m,
-where h is the step size, the order in runs is at most m. The number m is the *bound* from this end.
+where h is the step size, the observed order is at most m. The number m is the *bound* from this end.
 """
 
 from __future__ import annotations
@@ -48,7 +48,8 @@ If a kink changes the results of steps of these sizes by d and D, the bound is l
 INSIDE = 100
 """The number 100: :func:`undefined_beyond` makes a step of size h at the distance 100 h from an end.
 
-The stages of this step are inside the time span if their abscissae are between -100 and 101.
+The step begins at t = 100 h after the initial time, or ends 100 h before the final time. A stage with the
+abscissa c is at the time t + c h, so all stages are inside the time span for -100 <= c <= 101.
 """
 
 EQUAL = 1e-26
@@ -62,11 +63,10 @@ assert EQUAL > AGREEMENT
 
 
 def end_limits(compiled: Optimised, end: Vector) -> tuple[float, float]:
-    """Which upper bounds of the order in runs follow from kinks at the start and at the end of the solution?
+    """Return the upper bounds of the observed order from a kink at the start, and from a kink at the end.
 
-    A kink is a point where the field is not smooth. The first returned number is the bound from a kink at the
-    start, and the second is the bound from a kink at the end. For example, (2, inf) means that a kink at the
-    start limits the order to 2.
+    A kink is a point where the field is not smooth. For example, (2, inf) means that a kink at the start
+    limits the order to 2.
 
     A bound is infinity if there is no kink, if the kink does not change the results of steps, or if the bound
     cannot be computed. ``end`` is the exact state at the end of the time span.
@@ -80,13 +80,13 @@ def end_limits(compiled: Optimised, end: Vector) -> tuple[float, float]:
 
 
 def undefined_beyond(compiled: Optimised, end: Vector) -> str:
-    """Does a run fail because a stage is outside the time span, where the field is not defined?
+    """Return a reason if runs fail because the field is not defined at a stage outside the time span.
 
-    If so, the returned text says which step has this stage, the first or the last. Otherwise the text is
-    empty. ``end`` is the exact state at the end of the time span.
+    The reason names the step that has this stage: the first or the last step. If runs do not fail for this
+    reason, the text is empty. ``end`` is the exact state at the end of the time span.
 
-    The first step is the reason if a very short step at the initial time fails, but succeeds at a slightly
-    later time. The last step is the reason if a very short step at the final time fails, but succeeds at a
+    The first step is named if a very short step at the initial time fails, but succeeds at a slightly
+    later time. The last step is named if a very short step at the final time fails, but succeeds at a
     slightly earlier time.
     """
     first, last = (PreciseDomain(0, DIGITS).rational(*x.as_integer_ratio()) for x in compiled.scene.span)
@@ -107,9 +107,9 @@ def undefined_beyond(compiled: Optimised, end: Vector) -> str:
 
 
 def _limit(compiled: Optimised, state: Vector, t: Scalar, span: Scalar) -> float:
-    """Which upper bound of the order follows if an end (``state``, ``t``) of the solution is a kink?
+    """Return the upper bound of the observed order from the end (``state``, ``t``) of the solution.
 
-    A kink is a point where the field is not smooth. If the end is no kink, the bound is infinity.
+    If the field is smooth at this end, the bound is infinity.
     ``t`` + ``span`` is the time at the other end. Therefore ``span`` is negative if ``t`` is the final time.
     """
     scene = compiled.scene
@@ -126,7 +126,7 @@ def _limit(compiled: Optimised, state: Vector, t: Scalar, span: Scalar) -> float
 
 
 def _gap(compiled: Optimised, smooth: Optimised, state: Vector, t: Scalar, h: Scalar) -> float:
-    """How far apart are the results of two steps, one with ``compiled`` and one with ``smooth``?
+    """Return the distance between the result of a step with ``compiled`` and that of a step with ``smooth``.
 
     The distance is measured in the maximum norm. For ``h`` > 0, the steps start at ``state`` at the time
     ``t``. For ``h`` < 0, the steps have the size -``h`` and end near ``state`` at the time ``t``.
@@ -143,7 +143,7 @@ def _formulas(scene: Problem) -> list[Sequence[Expr]]:
 
 
 def _on_boundary(scene: Problem, state: Vector, t: Scalar) -> bool:
-    """Is (``state``, ``t``) a point where an operation such as abs(x) changes its case?"""
+    """Return True if an operation such as abs(x) changes its case at (``state``, ``t``)."""
     domain = PreciseDomain(0, DIGITS)
     values = scene.values(domain, state, t)
     nodes = [node for roots in _formulas(scene) for node in selections(roots)]
@@ -156,13 +156,14 @@ def _on_boundary(scene: Problem, state: Vector, t: Scalar) -> bool:
 
 
 def _smooth(scene: Problem, state: Vector, t: Scalar, away: Scalar) -> Problem:
-    """Which scene has the smooth field that equals the field along the solution near the end ``t``?
+    """Return a copy of the scene with a smooth field.
 
-    In this scene, one formula replaces each operation with several cases. For example, x replaces abs(x) if
-    x > 0 at the time ``t`` + ``away``.
+    In the copy, one formula replaces each operation with several cases. For example, x replaces abs(x) if
+    x > 0 at the time ``t`` + ``away``. So both fields are equal along the solution near the time ``t``.
     """
     domain = PreciseDomain(0, DIGITS)
-    # For x = t^2, a step from t = 0 gives x = 0 with Euler's method, but x > 0 with the midpoint rule.
+    # The midpoint rule also gives the right sign if the velocity is zero. For example, Euler's method gives
+    # x = 0 for x' = 2 t and x(0) = 0, but the midpoint rule gives x > 0.
     half = _moved(state, scene.velocity(domain, state, t), away / 2)
     point = _moved(state, scene.velocity(domain, half, t + away / 2), away)
     values = scene.values(domain, point, t + away)

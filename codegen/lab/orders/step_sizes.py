@@ -78,7 +78,8 @@ class Places:
         ``kinks`` and ``times`` are attributes of :class:`codegen.lab.reference.Reference`. All numbers of
         steps are permitted, and ``known`` is False, in the following cases:
 
-        - A point reduces the order. Steps that end at this point would hide the reduction.
+        - At a point, the field has so few derivatives that the order is lower. Steps that end at this point
+          would hide this.
         - The field jumps at a point. Because of rounding of the time, a stage at the end of a step could be
           on the wrong side of the jump.
         - No ``unit`` up to :data:`LARGEST_UNIT` is suitable.
@@ -214,7 +215,7 @@ def refine(
 ) -> Refinement:
     """Make runs with N, 2 N, 4 N, ... steps, where N is about :data:`FIRST`, and return the runs.
 
-    N is the smallest number of steps from :data:`FIRST` that ``places`` permits.
+    N is the smallest number of steps that ``places`` permits and that is at least :data:`FIRST`.
 
     No run has more than ``most`` steps. If ``to_rounding`` is False, the function stops as soon as
     :attr:`Refinement.settled` is True.
