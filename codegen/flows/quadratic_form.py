@@ -22,25 +22,33 @@ def squares(B: Matrix) -> list[Square]:
     """
     rest, n = [list(row) for row in B], range(len(B))
     terms: list[Square] = []
-
-    def subtract(rate: Fraction, e: list[Fraction]) -> None:
-        terms.append((rate, e))
-        for i in n:
-            for j in n:
-                rest[i][j] -= rate * e[i] * e[j]
-
     while any(any(row) for row in rest):
-        diagonal = [i for i in n if rest[i][i]]
-        if diagonal:
-            k = diagonal[0]
-            subtract(rest[k][k], [rest[i][k] / rest[k][k] for i in n])
-            continue
-        # A mixed term of the variables x and y is split into squares: 2 x y = ((x + y)^2 - (x - y)^2)/2.
-        i, j = next((i, j) for i in n for j in n if rest[i][j])
-        rate = rest[i][j] / 2
-        for sign in (1, -1):
-            subtract(sign * rate, [Fraction(int(k == i) + sign * int(k == j)) for k in n])
+        # The vector v = ``pivot`` determines the square (B v)(B v)^T/(v^T B v). Each subtraction of such a
+        # square reduces the rank by one.
+        pivot = _pivot(rest)
+        image = [sum((row[i] * sign for i, sign in pivot), Fraction(0)) for row in rest]
+        head = image[pivot[0][0]]
+        e = [x / head for x in image]
+        rate = head * head / sum((image[i] * sign for i, sign in pivot), Fraction(0))
+        terms.append((rate, e))
+        rest = [[rest[i][j] - rate * e[i] * e[j] for j in n] for i in n]
     return terms
+
+
+def _pivot(B: Matrix) -> list[tuple[int, int]]:
+    """Return a vector v with a large value v^T B v, as pairs of an index and the entry 1 or -1.
+
+    If v^T B v were small compared with the entries of B, the terms in :func:`squares` would be large and
+    cancel.
+    """
+    n = range(len(B))
+    k = max(n, key=lambda i: abs(B[i][i]))
+    mixed = [(i, j) for i in n for j in n if i < j]
+    i, j = max(mixed, key=lambda p: abs(B[p[0]][p[1]]), default=(k, k))
+    # Here v^T B v for the vector with two entries is larger than abs(B[i][j]).
+    if 2 * abs(B[k][k]) < abs(B[i][j]):
+        return [(i, 1), (j, 1 if B[i][j] * (B[i][i] + B[j][j]) >= 0 else -1)]
+    return [(k, 1)]
 
 
 def shifted(B: Matrix, a: Fraction) -> list[list[Fraction]]:
