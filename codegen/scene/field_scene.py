@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from codegen.groups.actions import Action
 from codegen.groups.base import LieGroup
 from codegen.groups.coordinate_maps import EXPONENTIAL, CoordinateMap, coordinate_map
+from codegen.groups.laws import check_laws
 from codegen.ir.values import Kind
 from codegen.scene.arguments import check_group, check_points, read_span
 from codegen.scene.consistency import Stated, check_action, check_problem
@@ -51,11 +52,13 @@ def FieldScene(
     - A formula has a wrong shape or contains an unknown symbol.
     - The initial point is not on the manifold.
     - The coordinate map is not defined for the group.
-    - The neutral element moves a point, or ``action.velocity`` differs from the derivative of the action.
+    - A formula of a group that is not built in violates a law of Lie groups.
+    - A formula of the action violates a law of left actions (:func:`check_action`).
     - ``velocity`` differs from f(y).y.
     - An invariant is not constant along solutions.
     """
     check_group(name, group)
+    check_laws(group, name)
     reader = Reader(name, list(y))
     check_points(reader, group, action)
     open_roots = reader.column(f, group.dim, "f")
