@@ -18,7 +18,7 @@ from codegen.groups.capabilities import (
     RightTrivialisation,
     Rotations,
 )
-from codegen.groups.laws import DEXPINV_ORDER, EXACT, Element, Law, Sample
+from codegen.groups.law import DEXPINV_ORDER, EXACT, Element, Law, Sample
 from codegen.groups.linear_algebra import dot, matmul, matvec, units, vector_sum
 
 

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 from codegen.groups.actions import Action
 from codegen.groups.base import LieGroup
 from codegen.groups.coordinate_maps import EXPONENTIAL, CoordinateMap, coordinate_map
-from codegen.groups.laws import check_laws
 from codegen.ir.values import Kind
 from codegen.scene.arguments import check_group, check_points, read_span
 from codegen.scene.consistency import Stated, check_action, check_problem
@@ -58,7 +57,6 @@ def FieldScene(
     - An invariant is not constant along solutions.
     """
     check_group(name, group)
-    check_laws(group, name)
     reader = Reader(name, list(y))
     check_points(reader, group, action)
     open_roots = reader.column(f, group.dim, "f")

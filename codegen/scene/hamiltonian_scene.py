@@ -11,7 +11,6 @@ from codegen.groups.actions import LeftMultiplication
 from codegen.groups.base import LieGroup
 from codegen.groups.capabilities import Coadjoint
 from codegen.groups.coordinate_maps import EXPONENTIAL
-from codegen.groups.laws import check_laws
 from codegen.ir.differentiate import gradient
 from codegen.ir.expr import Expr, walk
 from codegen.ir.values import Kind
@@ -127,7 +126,6 @@ def phase_space_reader(name: str, group: LieGroup, q: Column, mu: Column) -> Rea
     is wrong.
     """
     check_group(name, group)
-    check_laws(group, name)
     group.require(Coadjoint, where=name)
     reader = Reader(name, [*q, *mu])
     if (len(q), len(mu)) != (group.size, group.dim):

@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING
 from codegen.errors import SceneError
 from codegen.groups.actions import Action
 from codegen.groups.base import LieGroup
-from codegen.groups.laws import check_laws
 from codegen.ir.domain import FloatDomain
 from codegen.ir.expr import Expr
 from codegen.ir.number import Number
@@ -78,7 +77,6 @@ def SiteScene(
     add up to the field, a part has no exact flow, the total energy of an autonomous scene is not constant.
     """
     check_group(name, group)
-    check_laws(group, name)
     reader = Reader(name, list(y))
     check_points(reader, group, action)
     offsets = _offsets(name, f, reader.coordinates)
