@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NoReturn
 from codegen.errors import SceneError
 from codegen.groups.actions import Action
 from codegen.groups.base import LieGroup
+from codegen.groups.laws import check_laws
 from codegen.groups.linear_algebra import Vector
 from codegen.ir.decimals import exact
 from codegen.ir.domain import ExprDomain
@@ -19,12 +20,13 @@ if TYPE_CHECKING:
 
 
 def check_group(name: str, group: object) -> None:
-    """Raise :class:`SceneError` if ``group`` is not an object of a group class.
+    """Raise :class:`SceneError` if ``group`` is not an object of a group class, or violates a law of groups.
 
     A typical mistake is to pass the name of a group, or a class such as ``SO3`` in place of ``SO3()``.
     """
     if not isinstance(group, LieGroup):
         _refuse(name, "group", group, "SO3()")
+    check_laws(group, name)
 
 
 def check_points(reader: Reader, group: LieGroup, action: object) -> None:

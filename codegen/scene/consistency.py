@@ -108,8 +108,13 @@ def _check_invertible(orbit: Orbit, start: Vector[Sized]) -> None:
 def check_action(orbit: Orbit) -> None:
     """Raise :class:`SceneError` if the formulas of an action are wrong.
 
-    The identity of the group must map a point y to itself. For an element x of the Lie algebra, the velocity
-    of the action must be the derivative of exp(eps x).y with respect to eps at eps = 0.
+    At a point y, for elements g and k of the group and an element x of the Lie algebra, these equations must
+    be satisfied. Here e is the identity of the group.
+
+    - e.y = y.
+    - (g k).y = g.(k.y): the action is a left action.
+    - ``actexp`` at x and y is exp(x).y.
+    - The velocity is the derivative of exp(eps x).y with respect to eps at eps = 0.
     """
     group, action = orbit.group, orbit.action
     d = RoundingDomain(0, _digits(orbit))
@@ -118,6 +123,14 @@ def check_action(orbit: Orbit) -> None:
     eps = d.rational(1, 10**STEP_DIGITS)
     ends = [action.actexp(d, group, tuple(e * a for a in x), y) for e in (eps, -eps)]
     slope = [(a - b) / (eps + eps) for a, b in zip(*ends, strict=True)]
+    # Short vectors keep the products near the identity, where a local action is defined.
+    g, k = (
+        group.exp(
+            d, tuple(d.rational(p * j % q - q // 2, 4 * q + group.dim) for j in range(1, group.dim + 1))
+        )
+        for p, q in ((5, 13), (3, 7))
+    )
+    moved = action.act(d, group, k, y)
     for what, left, right, expected in (
         (
             "act",
@@ -125,13 +138,25 @@ def check_action(orbit: Orbit) -> None:
             y,
             "the value of y, because act(identity, y) must be y",
         ),
+        (
+            "act",
+            action.act(d, group, group.mul(d, g, k), y),
+            action.act(d, group, g, moved),
+            "because act(g k, y) must be act(g, act(k, y)): the action must be a left action",
+        ),
+        (
+            "actexp",
+            action.actexp(d, group, x, y),
+            action.act(d, group, group.exp(d, x), y),
+            "the value of act(exp(x), y)",
+        ),
         ("velocity", action.velocity(d, group, x, y), slope, "d/deps act(exp(eps x), y) at eps = 0"),
     ):
-        for k, (a, b) in enumerate(zip(left, right, strict=True)):
+        for i, (a, b) in enumerate(zip(left, right, strict=True)):
             tolerance = d.rational(1, 10**SLOPE_DIGITS) * (abs(a) + abs(b))
-            if abs((a - b).value) > tolerance.value + d.rounding(a - b):
+            if not abs((a - b).value) <= tolerance.value + d.rounding(a - b):
                 raise SceneError(
-                    f"{what}[{k}] of the action {action.name} is {orbit.text(a)}",
+                    f"{what}[{i}] of the action {action.name} is {orbit.text(a)}",
                     where=orbit.name,
                     expected=f"{orbit.text(b)}, {expected}",
                     hint=f"correct the class {type(action).__name__}",

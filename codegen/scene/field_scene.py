@@ -51,7 +51,8 @@ def FieldScene(
     - A formula has a wrong shape or contains an unknown symbol.
     - The initial point is not on the manifold.
     - The coordinate map is not defined for the group.
-    - The neutral element moves a point, or ``action.velocity`` differs from the derivative of the action.
+    - A formula of a group that is not built in violates a law of Lie groups.
+    - A formula of the action violates a law of left actions (:func:`check_action`).
     - ``velocity`` differs from f(y).y.
     - An invariant is not constant along solutions.
     """

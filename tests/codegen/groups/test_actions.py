@@ -314,6 +314,34 @@ class TestAReaderOfAScene:
         ):
             scene(SE2(), Shifted(), 2)
 
+    def test_refuses_a_right_action(self):
+        class Reversed(Rotation):
+            """Rotations by the transpose of the matrix."""
+
+            def act(self, d, group, g, y):
+                return super().act(d, group, group.inverse(d, g), y)
+
+            def actexp(self, d, group, x, y):
+                return super().actexp(d, group, tuple(-a for a in x), y)
+
+            def velocity(self, d, group, x, y):
+                return super().velocity(d, group, tuple(-a for a in x), y)
+
+        with pytest.raises(SceneError, match=r"act\[0\] of the action .* must be a left action; .*Reversed"):
+            scene(SO3(), Reversed(), 3)
+
+    def test_refuses_another_formula_for_the_action_of_an_exponential(self):
+        class First(Motion):
+            """Motions whose actexp has the first terms of the series only."""
+
+            def actexp(self, d, group, x, y):
+                return tuple(a + b for a, b in zip(y, self.velocity(d, group, x, y), strict=True))
+
+        with pytest.raises(
+            SceneError, match=r"actexp\[0\] of the action rigid motion is .*act\(exp\(x\), y\)"
+        ):
+            scene(SE2(), First(), 2)
+
     @pytest.mark.parametrize("make", [DiagonalAction, FactorwiseAction])
     def test_refuses_no_parts(self, make):
         with pytest.raises(
