@@ -6,6 +6,11 @@ import math
 from collections.abc import Iterable, Sequence
 from itertools import pairwise
 from numbers import Complex, Integral, Number, Real
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
 
 MOST = 2**63 - 1
 """The largest number of steps, lattice sites or grid points that emitted C accepts."""
@@ -127,3 +132,20 @@ def described(x: object) -> str:
     except ValueError:  # raised by ``str`` for an integer with thousands of digits
         shown = "a number"
     return f"{shown if len(shown) <= 60 else shown[:60] + ' ...'} of type {type(x).__name__}"
+
+
+def real_array(given: object, content: str) -> NDArray[Any]:
+    """Return ``given`` as an array of real numbers.
+
+    ValueError is raised for rows of different lengths, and TypeError for entries that are not real numbers.
+    ``content`` is a word for the entries in error messages, such as "values".
+    """
+    import numpy as np
+
+    try:
+        array: NDArray[np.generic] = np.asarray(given)
+    except ValueError:
+        raise ValueError(f"expected an array of {content}, found rows of different lengths") from None
+    if array.dtype.kind not in "fiub":
+        raise TypeError(f"expected real numbers, found {described(given)}")
+    return array

@@ -15,8 +15,7 @@ from functools import cached_property
 from typing import Any
 
 from codegen import lanes
-from codegen.argument import count, described, end_of_run, input_values, monotone, real
-from codegen.array_module import real_array
+from codegen.argument import count, described, end_of_run, input_values, monotone, real, real_array
 from codegen.arrival import Arrival as Arrival
 from codegen.arrival import Begun, joined
 from codegen.arrival import Signals as Signals

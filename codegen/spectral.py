@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from codegen.argument import count, real
-from codegen.array_module import ArrayModule, ArrayRun, real_array
+from codegen.argument import count, real, real_array
+from codegen.array_module import ArrayModule, ArrayRun
 from codegen.arrival import Status
 from codegen.printers.interface import Interface
 from codegen.run.status import reason

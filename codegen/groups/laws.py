@@ -31,7 +31,7 @@ def check_laws(group: LieGroup, where: str = "") -> None:
             check_laws(factor, where)
     elif (bundle := group.offers(CotangentBundle)) is not None:
         check_laws(bundle.base, where)
-    elif not _is_built_in(group):
+    elif not is_built_in(group):
         try:
             _check_all(Sample(group), where)
         except (ArithmeticError, ValueError, IndexError) as error:
@@ -43,13 +43,13 @@ def check_laws(group: LieGroup, where: str = "") -> None:
             ) from error
 
 
-def _is_built_in(part: object) -> bool:
+def is_built_in(part: object) -> bool:
     """Return True if this package defines the classes of a group and of all its parts."""
     package = LieGroup.__module__.rpartition(".")[0]
     values = vars(part).values()
     entries = chain(values, *(x for x in values if isinstance(x, tuple)))
     parts = (x for x in entries if isinstance(x, LieGroup | Representation))
-    return type(part).__module__.startswith(f"{package}.") and all(map(_is_built_in, parts))
+    return type(part).__module__.startswith(f"{package}.") and all(map(is_built_in, parts))
 
 
 def _check_all(sample: Sample, where: str) -> None:
