@@ -40,6 +40,9 @@ PARTS = 5
 A drift is found only if the mean deviations of these sections form a monotone sequence.
 """
 
+ROUNDING = "rounding"
+"""The verdict on a deviation that rounding errors can cause."""
+
 LOST = 1.0
 """A conserved quantity counts as lost if its relative deviation is at least LOST."""
 
@@ -136,6 +139,8 @@ class Drift:
       test measures the distance of the deviation from a line (:data:`STRAIGHT`). The other test measures
       whether the deviation grows steadily (:data:`STEADY`). Neither test uses :data:`CONFINED`.
     - ``until``: the time at which the deviation saturates, or None.
+    - ``brief``: True if the run is shorter than the time span of the scene. A periodic deviation can look
+      like a drift in such a run.
     """
 
     slope: float
@@ -149,6 +154,7 @@ class Drift:
     confined: bool = False
     unlike_walk: bool = True
     until: float | None = None
+    brief: bool = False
 
     @property
     def is_drift(self) -> bool:
@@ -173,7 +179,9 @@ class Drift:
         if self.largest == 0.0:
             return "exact"
         if self.largest <= self.rounding:
-            return "rounding"
+            return ROUNDING
+        if self.brief:
+            return "too short to tell"
         near, far = self.ratios
         walks = WALKING[0] < near < WALKING[1]
         grows_like_a_walk = walks and far > WALKING[0] and BOUNDED <= self.exponent < WALK
