@@ -44,8 +44,8 @@ FEWEST = 200
     "--properties",
     "with_properties",
     is_flag=True,
-    help="Also test whether each method is symplectic and symmetric, and whether the first conserved "
-    "quantity drifts.",
+    help="Also test whether each method is symplectic and symmetric (with steps of size H and longer "
+    "steps), and whether the first conserved quantity drifts.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print the results as JSON.")
 def command(
@@ -62,11 +62,11 @@ def command(
     """Run methods on SCENE over many steps and report the drift of energy, invariants and manifold equations.
 
     The column "law" describes how a quantity deviates from its initial value: exact, bounded, random walk,
-    drift, rounding, lost or too short to tell. The word "rounding" means that rounding errors explain the
-    deviation. The word "lost" means that the deviation is about as large as the quantity. If a method
-    conserves a quantity in exact arithmetic, the rounding errors are measured with and without compensated
-    summation. The root mean square (rms) of the rounding errors over several initial states grows like
-    steps^p. The column "steps^p" contains p. If a run ends early or a method fails, the exit status is 1.
+    drift, rounding, lost or too short to tell. A drift needs a run over the span of SCENE. The word
+    "rounding" means that rounding errors explain the deviation, and "lost" that it is about as large as the
+    quantity. If a method conserves a quantity in exact arithmetic, the rounding errors are measured with and
+    without compensated summation. Their root mean square (rms) over several initial states grows like
+    steps^p, and this column contains p. If a run ends early or a method fails, the exit status is 1.
 
     \b
     Examples:

@@ -40,6 +40,9 @@ PARTS = 5
 A drift is found only if the mean deviations of these sections form a monotone sequence.
 """
 
+ROUNDING = "rounding"
+"""The verdict on a deviation that rounding errors can cause."""
+
 LOST = 1.0
 """A conserved quantity counts as lost if its relative deviation is at least LOST."""
 
@@ -136,6 +139,8 @@ class Drift:
       test measures the distance of the deviation from a line (:data:`STRAIGHT`). The other test measures
       whether the deviation grows steadily (:data:`STEADY`). Neither test uses :data:`CONFINED`.
     - ``until``: the time at which the deviation saturates, or None.
+    - ``brief``: True if the run is shorter than the time span of the scene. A periodic deviation can look
+      like a drift in such a run.
     """
 
     slope: float
@@ -149,6 +154,7 @@ class Drift:
     confined: bool = False
     unlike_walk: bool = True
     until: float | None = None
+    brief: bool = False
 
     @property
     def is_drift(self) -> bool:
@@ -163,7 +169,8 @@ class Drift:
           deviation saturates, the bound is 1/2 instead of 1.
         - ``exact``: all deviations are zero.
         - ``rounding``: the deviation is so small that rounding errors can cause it.
-        - ``drift``: the attributes ``is_drift``, ``persists`` and ``unlike_walk`` are all True.
+        - ``drift``: the attributes ``is_drift``, ``persists`` and ``unlike_walk`` are all True. If ``brief``
+          is True, too, the verdict is ``too short to tell``.
         - ``bounded``: there is no drift, and the deviation does not grow.
         - ``random walk``: there is no drift, and the deviation grows like a random walk.
         - ``too short to tell``: the run is too short for a verdict.
@@ -173,12 +180,12 @@ class Drift:
         if self.largest == 0.0:
             return "exact"
         if self.largest <= self.rounding:
-            return "rounding"
+            return ROUNDING
         near, far = self.ratios
         walks = WALKING[0] < near < WALKING[1]
         grows_like_a_walk = walks and far > WALKING[0] and BOUNDED <= self.exponent < WALK
         if self.is_drift and self.persists and self.unlike_walk:
-            return "drift"
+            return "too short to tell" if self.brief else "drift"
         if self.until is not None:
             return "bounded"
         ends = not walks and (self.exponent < BOUNDED or near < WALKING[0])

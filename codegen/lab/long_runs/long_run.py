@@ -132,7 +132,11 @@ def long_run(
 
     changes = {} if failure else changes_of_a_step(compiled, runner, h)
     conserved = [name for name, x in changes.items() if x <= EXACT * trajectory.scales[name]]
-    kept = _kept(trajectory, conserved, changes, early)
+    # The factor allows rounding errors in the length of the run.
+    brief = abs(h) * trajectory.steps < (1 - 1e-9) * abs(float(scene.span[1] - scene.span[0]))
+    kept = tuple(
+        replace(k, drift=replace(k.drift, brief=brief)) for k in _kept(trajectory, conserved, changes, early)
+    )
     return LongRun(
         scene.name,
         compiled.method.label,

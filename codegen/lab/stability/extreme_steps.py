@@ -242,21 +242,32 @@ def _probe(case: Case, number: int) -> tuple[Vector, Scalar, Scalar]:
     return tuple(rounded(x) for x in case.state), rounded(case.t), rounded(case.h)
 
 
+def _digits(case: Case) -> int:
+    """Return the number of digits of the exact step and of the probes, at least 60.
+
+    Long steps and large coordinates need more digits, because long steps cause cancellation, and because the
+    sine of a large number depends on all digits of this number. Small coordinates need more digits, because
+    iterations for implicit equations stop at an absolute change of about 10^-digits.
+    """
+    sizes = [abs(x) for x in case.state if x]
+    large = math.log10(max(1.0, abs(case.h), *sizes))
+    small = -math.log10(min(1.0, *sizes)) if sizes else 0.0
+    return DIGITS + 3 * math.ceil(large) + math.ceil(small)
+
+
 def _exact(compiled: Compiled, runner: Emitted, case: Case) -> tuple[list[Scalar], list[list[Scalar]]]:
     """Make the step of a case once with at least 60 digits, and several times with simulated rounding errors.
 
     Return the state after the first of these steps, and a list of the states after the other steps. The first
-    state counts as exact. The steps with simulated rounding errors are called probes. The probes use 60
-    digits for step sizes up to 1, and more than 60 digits for longer steps, because long steps cause
-    cancellation.
+    state counts as exact. The steps with simulated rounding errors are called probes. The number
+    of digits of all steps is :func:`_digits`.
     """
-    given, near = (case.state, case.t, case.h), None
-    more = 3 * math.ceil(math.log10(max(1.0, abs(case.h))))
+    given, near, digits = (case.state, case.t, case.h), None, _digits(case)
     try:
-        exact = precise_step(compiled, *given, limit=SWEEPS, newton=False)
+        exact = precise_step(compiled, *given, limit=SWEEPS, newton=False, digits=digits)
     except (NotConverged, ArithmeticError, ValueError):
         near = solutions(runner, *given)
-        exact = precise_step(compiled, *given, near, limit=CORRECTIONS, digits=DIGITS + more)
+        exact = precise_step(compiled, *given, near, limit=CORRECTIONS, digits=digits)
     if near is None and compiled.kernel.loops:
         near = solutions(runner, *given)
     probes = [
@@ -266,7 +277,7 @@ def _exact(compiled: Compiled, runner: Emitted, case: Case) -> tuple[list[Scalar
             near and list(near),
             limit=CORRECTIONS,
             probe=number,
-            digits=DIGITS + more,
+            digits=digits,
         )
         for number in range(1, PROBES + 1)
     ]

@@ -3,7 +3,7 @@
 The time span of the scene is divided into n equal steps. The run is usable if it satisfies three conditions:
 
 - No step fails, and the final state is finite.
-- The error of the final state is at most a tenth of max(1, norm of the exact final state).
+- The error of the final state is at most a tenth of the size of the solution (:func:`_size`).
 - If the scene has a conserved energy, the energy changes by at most a tenth of its size.
 
 Bisection finds a number n such that the run with n steps is usable and the run with n - 1 steps is not.
@@ -83,7 +83,16 @@ def _failure(compiled: Compiled, runner: Emitted, exact: Reference, steps: int) 
         before, after = energy(runner.initial, float(first))[0], energy(end, float(last))[0]
         if abs(after - before) > USABLE * max(abs(before), abs(after)):
             return "the energy changes by more than a tenth of its size"
-    size = max(1.0, math.hypot(*map(float, exact.state)))
-    if distance(scene, end, exact.state) > USABLE * size:
+    if distance(scene, end, exact.state) > USABLE * _size(runner, exact):
         return "the error is above a tenth of the state's size"
     return None
+
+
+def _size(runner: Emitted, exact: Reference) -> float:
+    """Return the larger norm of the initial state and of the exact final state.
+
+    If both states are zero, the largest absolute values of the coordinates between them replace the states.
+    A change of the unit of the state changes the size by the same factor.
+    """
+    ends = max(math.hypot(*runner.initial), math.hypot(*map(float, exact.state)))
+    return ends or math.hypot(*exact.sizes)

@@ -6,11 +6,14 @@ import math
 from dataclasses import replace
 
 import pytest
+from sympy import Rational, cos
 
 from codegen.emitter import compile_method
+from codegen.groups import Rn
 from codegen.integrator import Integrator
 from codegen.lab.runner import Emitted
 from codegen.lab.stability.extreme_steps import ACCURATE, SILENT, WRONG, Case, answer, cases
+from codegen.scene import HamiltonianScene
 
 
 class Spoilt:
@@ -163,3 +166,23 @@ class Answering:
     def __init__(self, runner: Emitted, found) -> None:
         self.compiled, self.observed = runner.compiled, runner.observed
         self.integrator = Spoilt(runner.integrator, lambda *_: found)
+
+
+@pytest.mark.parametrize(
+    ("method", "scale", "verdict"),
+    [
+        ("vcg:midpoint", 1e75, SILENT),
+        ("vcg:midpoint", 1e150, SILENT),
+        ("vrkmk(2):gauss2", 1e-160, ACCURATE),
+    ],
+)
+def test_very_large_and_very_small_states_get_enough_digits(method, scale, verdict):
+    """In a double, q = 1e75 has no digit that the sine needs. With 60 digits, q + h q' has none either."""
+    G = Rn(1)
+    q, p = G.point("q"), G.dual("p")
+    pendulum = HamiltonianScene(
+        group=G, q=q, mu=p, H=p[0] ** 2 / 2 - cos(q[0]), q0=[Rational(157, 50)], mu0=[0], span=(0, 20)
+    )
+    made = compile_method(pendulum, method)
+    found = answer(made, Emitted(made, "c"), Case("", (3.14 * scale, 0.0), 0.0, 0.2))
+    assert found.verdict == verdict

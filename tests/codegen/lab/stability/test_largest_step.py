@@ -8,10 +8,12 @@ from fractions import Fraction
 
 import pytest
 from click.testing import CliRunner
+from sympy import Matrix, Rational, symbols
 
 from codegen import scenes
 from codegen.commands.stability import command
 from codegen.emitter import compile_method
+from codegen.groups import LeftMultiplication, Rn
 from codegen.lab.default_methods import methods_for
 from codegen.lab.reference import cached_reference
 from codegen.lab.runner import Emitted
@@ -20,6 +22,7 @@ from codegen.lab.stability.endurance import Endurance, endure
 from codegen.lab.stability.largest_step import largest_step
 from codegen.lab.stability.linear_stability import region
 from codegen.lab.stability.order_reduction import order_reduction
+from codegen.scene import FieldScene
 from codegen.scenes import stiff_variants
 from codegen.scenes.free_rigid_body import thin_body
 
@@ -125,3 +128,13 @@ def test_a_scene_of_the_user_with_the_name_of_a_gallery_scene_has_no_stiff_varia
     own = replace(scenes.load("free_rigid_body"), name="dipole")
     assert stiff_variants(own) == ()
     assert len(stiff_variants(scenes.load("dipole"))) == 3
+
+
+@pytest.mark.parametrize("unit", [Rational(1, 10**6), 1, 10**6])
+def test_the_unit_of_the_state_does_not_change_the_largest_step(unit):
+    y = Matrix(symbols("y0:2", real=True))
+    turning = FieldScene(
+        group=Rn(2), action=LeftMultiplication(), y=y, f=[y[1], -y[0]], y0=[unit, 0], span=(0, 10)
+    )
+    made = compile_method(turning, "ambient:rk4")
+    assert largest_step(made, Emitted(made, "c"), cached_reference(turning)).steps == 10
