@@ -23,8 +23,8 @@ def inverse(
     for k in range(n):
         # Division by a tiny pivot would amplify rounding errors.
         pivot = max(range(k, n), key=lambda i: size(rows[i][k]))
-        # The size of the pivot can be 0, infinite or a NaN. With an infinite pivot, the elimination would give
-        # a finite result.
+        # The size of the pivot can be 0, infinite or a NaN. With an infinite pivot, the elimination would
+        # give a finite result.
         if not 0 < size(rows[pivot][k]) < math.inf:
             return None
         order.append(pivot)

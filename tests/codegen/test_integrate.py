@@ -389,8 +389,11 @@ def test_an_event_function_that_fails_ends_the_run_at_the_last_good_state(target
 @pytest.mark.parametrize("sign", [1, -1])
 def test_the_events_of_a_failed_step_are_found_when_the_run_continues(target: str, sign: int) -> None:
     integrator = loaded("rotation", "rkmk:rk4", target, events=1)
+
+    def fails(t: float, y: list[float]) -> float:
+        return math.nan if sign * t > 1.4 else (sign * t - 0.3) * (sign * t - 1.1)
+
     with pytest.raises(StepFailed) as failure:
-        fails = lambda t, y: math.nan if sign * t > 1.4 else (sign * t - 0.3) * (sign * t - 1.1)  # noqa: E731
         integrator.integrate([1, 0, 0], 0, sign * 2, sign * 0.5, events=[fails])
     done = failure.value.arrival
     assert failure.value.status == Status.BAD_EVENT
