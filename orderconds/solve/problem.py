@@ -163,8 +163,9 @@ class Problem:
         coefficients, and gives one row of violations.
 
         If a bound is satisfied, its violation is zero. The bound of the option ``--size`` applies to the
-        coefficients in the tableau file (``ansatz.cells``). It does not apply to the weights b_i of a
-        commutator-free method, because these weights are sums of coefficients.
+        coefficients in the tableau file (``ansatz.cells``). For low-storage schemes, it also applies to the
+        weights b_i, the coefficients of the Runge-Kutta method whose conditions are solved. For other
+        commutator-free methods, it does not apply to b_i, because b_i is a sum of several coefficients.
         """
         values, slopes = self.coefficients.jacobians(points)
         rows, derivatives = [], []
@@ -175,7 +176,7 @@ class Problem:
             rows.append(np.where(required > 0, 0.0, MARGIN - required))
             derivatives.append(-slopes[:, places])
         if self.spec.size is not None:
-            count = len(self.ansatz.cells)
+            count = self.coefficients.size if self.ansatz.abelian else len(self.ansatz.cells)
             cells, sloped = values[:, :count], slopes[:, :count]
             rows.append(np.maximum(0.0, np.abs(cells) - float(self.spec.size)))
             derivatives.append(sloped * np.sign(cells)[..., None])

@@ -403,6 +403,12 @@ def test_the_events_of_a_failed_step_are_found_when_the_run_continues(target: st
     assert [x.t for x in rest.crossings] == pytest.approx([sign * 1.1])
 
 
+@pytest.mark.parametrize("steps", [10**17, 2**62])
+def test_a_trajectory_that_does_not_fit_in_memory_is_refused(steps: int) -> None:
+    with pytest.raises(InputError, match=f"not enough memory for {steps + 1} states"):
+        loaded("rotation", "rkmk:rk4", "c").trajectory([1, 0, 0], 0.5, steps)
+
+
 def test_inputs_and_single_precision_are_supported() -> None:
     driven = loaded("actuated_rigid_body", "rkmk:rk4", inputs=("u0", "u1", "u2"), events=1)
     found = driven.integrate(
