@@ -14,6 +14,7 @@ from codegen.integrator import Integrator
 from codegen.printers.c.module import prototypes
 from codegen.printers.interface import Interface
 from codegen.run.status import reason
+from orderconds.errors import InputError
 
 
 class CompiledIntegrator(Integrator):
@@ -42,7 +43,14 @@ class CompiledIntegrator(Integrator):
         size, real, new = self.interface.size, self.interface.format.c_type, self._ffi.new
         state, completed = new(f"{real}[]", begun.numbers), new("size_t *")
         row_count = steps // stride + 1 if stride else 0
-        rows = new(f"{real}[]", row_count * size) if stride else self._ffi.NULL
+        try:
+            rows = new(f"{real}[]", row_count * size) if stride else self._ffi.NULL
+        except (MemoryError, OverflowError):
+            raise InputError(
+                f"not enough memory for {row_count} states",
+                expected="enough memory for all states of the trajectory",
+                hint="use a larger stride, or fewer steps",
+            ) from None
         time = [t] if self.interface.time else []
         with self._observed(begun) as (sampled, counted):
             arguments = [state, *time, h, steps, *begun.values, *sampled, rows, stride, *counted, completed]

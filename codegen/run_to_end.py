@@ -90,6 +90,9 @@ class RunToEnd(ABC):
             *(restore(list(run.rows)), tuple(crossings)),
         )
         if run.status not in (Status.OK, Status.EVENT):
+            # The failed step may contain events, but a run that continues from ``arrival`` finds them again.
+            done = tuple(x for x in crossings if (x.t <= run.t if span[1] > span[0] else x.t >= run.t))
+            arrival = replace(arrival, crossings=done)
             failed = begun.failed(run.status, run.accepted, run.state, run.reason)
             failed.arrival = replace(arrival, status=failed.status)
             raise failed

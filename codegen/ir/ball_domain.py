@@ -235,7 +235,7 @@ class BallDomain:
         small = change <= 4096 * self.eps * max(arb(1), *(abs(a.mid()) for a in old))
         return small and (change == 0 or (previous is not None and change >= previous)), change
 
-    def increment(self, x: arb) -> arb:
+    def increment(self, x: arb, unknowns: Sequence[arb]) -> arb:
         """Return an increment d for an accurate difference quotient (f(x + d) - f(x))/d.
 
         The function f is smooth.

@@ -65,8 +65,8 @@ class Domain(Protocol):
 class Differenced(Domain, Protocol):
     """A domain in which Newton's method replaces derivatives by difference quotients."""
 
-    def increment(self, x: Scalar) -> Scalar:
-        """Return a suitable increment d for the difference quotient (f(x + d) - f(x))/d of a function f."""
+    def increment(self, x: Scalar, unknowns: Sequence[Scalar]) -> Scalar:
+        """Return an increment d for the difference quotient (f(x + d) - f(x))/d. x is one of ``unknowns``."""
 
 
 def stumpff(k: int, z: float) -> float:
@@ -150,10 +150,10 @@ def curvature(k: int, z: float) -> float:
 
 class FloatDomain:
     """The arithmetic of IEEE doubles. If ``patience`` fixed-point sweeps do not solve implicit equations,
-    Newton's method is used. The stopping rule assumes unknowns of size about 1. For unknowns below 1e-9, an
-    iteration may stop too early; :class:`PreciseDomain` avoids this. Emitted code has a relative rule."""
+    Newton's method is used. ``size`` is the largest absolute value of a coordinate of the state."""
 
     patience = 40
+    size = 1.0
 
     def __init__(self, h: float) -> None:
         self.h = h
@@ -197,14 +197,15 @@ class FloatDomain:
         # converged if ``change`` is small and the next change is at most the rounding error 2^-53 * scale.
         if change <= 2.0**-48 * scale and change * change <= 2.0**-53 * scale * before:
             return True, change
-        # Small changes that no longer decrease are rounding errors.
-        return change == 0.0 or 0 < before <= change <= 2.0**-44 * max(1.0, scale), change
+        # Small changes that no longer decrease are rounding errors (:mod:`codegen.run.stopping`).
+        small = change <= 2.0**-44 * scale or change * abs(self.h) <= 2.0**-47 * self.size
+        return change == 0.0 or (0 < before <= change and small), change
 
-    def increment(self, x: float) -> float:
-        """Return the increment d for the difference quotient (f(x + d) - f(x))/d of a function f."""
-        # The increment d causes a truncation error of about d and a rounding error of about 2^-53/d. For
-        # abs(x) <= 1, both errors have about the same size, because d is 2^-26.
-        return math.ldexp(max(1.0, abs(x)), -26)
+    def increment(self, x: float, unknowns: Sequence[float]) -> float:
+        """Return the increment for a difference quotient, see :meth:`Differenced.increment`."""
+        # With d = 2^-26 s, the truncation error d/s and the rounding error 2^-53 s/d are about equal.
+        scale = max(self.size / abs(self.h) if self.h else 1.0, *map(abs, unknowns)) or 1.0
+        return math.ldexp(max(abs(x), min(1.0, scale)), -26)
 
 
 LARGEST_BITS = 16384
@@ -314,10 +315,9 @@ class PreciseDomain:
         # While the change decreases from sweep to sweep, a further sweep gives more correct digits.
         return small and (change == 0 or (previous is not None and change >= previous)), change
 
-    def increment(self, x: Scalar) -> Scalar:
-        """Return the increment d for the difference quotient (f(x + d) - f(x))/d of a function f."""
-        # The returned number is d. Without the factor max(1, abs(x)), the sum x + d would be rounded to x for
-        # large x.
+    def increment(self, x: Scalar, unknowns: Sequence[Scalar]) -> Scalar:
+        """Return the increment for a difference quotient, see :meth:`Differenced.increment`."""
+        # Without the factor max(1, abs(x)), the sum x + d would be rounded to x for large x.
         return self.context.sqrt(self.context.eps) * max(1, abs(x))
 
 

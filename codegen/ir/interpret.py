@@ -12,7 +12,7 @@ from copy import copy
 from dataclasses import replace
 from typing import SupportsFloat, cast
 
-from codegen.ir.domain import Differenced, Domain, NotConverged, Scalar, Value
+from codegen.ir.domain import Differenced, Domain, FloatDomain, NotConverged, Scalar, Value
 from codegen.ir.operations import Adjoint, Problem
 from codegen.ir.program import BODY, SPACE, Assign, Program, Solve
 from codegen.ir.values import Kind, Var
@@ -74,6 +74,8 @@ def interpret(
     # Each sweep (iteration) of a block overwrites the results of the previous sweep in ``env``.
     env: Env = {v: inputs[v.name] for v in program.inputs}
     computed = getattr(domain, "computed", None)
+    if isinstance(domain, FloatDomain):
+        domain.size = _size(program, inputs)
 
     def run(assign: Assign) -> None:
         results = assign.operation.evaluate(problem, domain, tuple(env[a] for a in assign.args))
@@ -93,6 +95,13 @@ def interpret(
             _fixed_point_first(statement, env, domain, run, limit, expected, newton)
             expected.update((unknown, env[unknown]) for unknown in statement.unknowns)
     return {name: env[var] for name, var in program.outputs}
+
+
+def _size(program: Program, inputs: Mapping[str, Value]) -> float:
+    """Return the largest absolute value of a coordinate of the state."""
+    # The time is no coordinate of the state.
+    state = (x for v in program.inputs if v.name != "t" for x in flatten(v.kind, inputs[v.name]))
+    return max(map(abs, state), default=1.0)
 
 
 def _fixed_point_first(
@@ -231,7 +240,7 @@ def _correct(
         residual = [g - u for g, u in zip(values, now, strict=True)]
         columns = []
         for j, u in enumerate(now):
-            step = domain.increment(u)
+            step = domain.increment(u, now)
             # For the difference quotient, ``step`` is added to unknown j, and the images are computed again.
             moved = images([*now[:j], u + step, *now[j + 1 :]])
             # ``slopes`` is column j of g'(u).
@@ -242,7 +251,7 @@ def _correct(
         done, size = domain.settled(now, new, size)
         if near is not None:
             # If no change exceeds ``increment``, one more Newton step is enough (quadratic convergence).
-            done = all(abs(a - b) <= domain.increment(a) for a, b in zip(now, new, strict=True))
+            done = all(abs(a - b) <= domain.increment(a, now) for a, b in zip(now, new, strict=True))
         now = new
         if done or sharp:
             # This call updates the unknowns and all other variables of ``block`` in ``env``.

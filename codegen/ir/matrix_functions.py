@@ -150,7 +150,7 @@ class MatrixInverse(VectorFunction):
         return None
 
     def in_doubles(self, args: Sequence[float]) -> tuple[float, ...]:
-        """Return the inverse in doubles, or NaNs for a singular matrix."""
+        """Return the inverse in doubles, or NaNs if the matrix is singular or not finite."""
         return matrix_inverse.inverse(self.n, args, 1.0, abs) or (math.nan,) * self.size
 
     def in_digits(self, context: Any, digits: int, args: Sequence[Scalar]) -> tuple[Scalar, ...]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -12,7 +13,7 @@ if TYPE_CHECKING:
 def inverse(
     n: int, a: Sequence[Scalar], one: Scalar, size: Callable[[Scalar], Any]
 ) -> tuple[Scalar, ...] | None:
-    """Return the inverse of the n x n matrix ``a``, row by row, or None for a singular matrix.
+    """Return the inverse of the n x n matrix ``a``, row by row, or None if it is singular or not finite.
 
     ``one`` is the number 1 in the type of the entries. In each column, the pivot is the entry x on or below
     the diagonal with the largest ``size(x)``. Emitted code executes the same operations in the same order.
@@ -22,8 +23,9 @@ def inverse(
     for k in range(n):
         # Division by a tiny pivot would amplify rounding errors.
         pivot = max(range(k, n), key=lambda i: size(rows[i][k]))
-        # The matrix counts as singular if the size of the pivot is 0 or a NaN.
-        if not size(rows[pivot][k]) > 0:
+        # The size of the pivot can be 0, infinite or a NaN. With an infinite pivot, the elimination would
+        # give a finite result.
+        if not 0 < size(rows[pivot][k]) < math.inf:
             return None
         order.append(pivot)
         rows[k], rows[pivot] = rows[pivot], rows[k]

@@ -371,6 +371,7 @@ def _inverse(function: MatrixInverse) -> Function:
     row, at = n * k + j, n * k + k
     # The pivot has the largest absolute value in column k on and below the diagonal, so rounding errors stay
     # small.
+    regular = both(size(b[at]) > 0.0, size(b[at]) < INFINITY)
     search = If(size(b[n * i + k]) > size(b[n * pivot + k]), (Assign(pivot, i),))
     exchanged = (Assign(kept, b[row]), Assign(b[row], b[n * pivot + j]), Assign(b[n * pivot + j], kept))
     # The Gauss-Jordan elimination works in place: the inverse overwrites the entries of ``b``.
@@ -382,10 +383,11 @@ def _inverse(function: MatrixInverse) -> Function:
     column = (
         Assign(pivot, k),
         For(i, whole(n), (If(i > k, (search,)),)),
-        # If a pivot is zero, the result contains infinite or NaN entries.
         Assign(order[k], pivot),
         For(j, whole(n), exchanged),
-        Assign(factor, 1.0 / b[at]),
+        # With an infinite pivot, the factor 0 would give a finite result. With the factor NaN, all entries of
+        # the result are NaN.
+        Assign(factor, select(regular, 1.0 / b[at], INFINITY - INFINITY)),
         For(j, whole(n), (Assign(b[row], b[row] * factor),)),
         # In a Gauss-Jordan inversion, the reciprocal of the pivot replaces the pivot.
         Assign(b[at], factor),

@@ -12,6 +12,7 @@ from codegen.scene.consistency import check_problem
 from codegen.scene.hamiltonian_scene import check_flows
 from codegen.scene.hamiltonian_sites import check_parts_of_site
 from codegen.scene.problem import Problem
+from codegen.scene.semilinear_scene import check_operator
 from codegen.scene.site_scene import check_sites, with_frozen_neighbours
 from codegen.scene.stiefel_scene import check_tangent
 
@@ -60,6 +61,8 @@ def _check(problem: Problem) -> None:
     if problem.roots:
         # On a lattice, the formulas of the scene are checked at one site with fixed neighbours.
         check_problem(problem if problem.sites is None else with_frozen_neighbours(problem), {})
+    if problem.semilinear is not None:
+        check_operator(problem, problem.semilinear)
     check_flows(problem)
     if problem.sites is not None:
         check_sites(problem)

@@ -5,7 +5,7 @@ symbol, the factor by which L multiplies exp(i k x).
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
@@ -21,6 +21,7 @@ from codegen.ir.values import Kind
 from codegen.scene.arguments import read_span
 from codegen.scene.derivative import Dx
 from codegen.scene.formulas import Reader
+from codegen.scene.orbit import variants
 from codegen.scene.problem import TIME, Problem, StateField
 from codegen.scene.semilinear import EIGENVALUE, ExactExponential, Semilinear
 
@@ -79,13 +80,13 @@ def SemilinearScene(
     if reader.signals:
         raise SceneError("a signal in the formulas", where=name, expected="formulas in t and parameters")
     parameters = reader.parameters()
-    _check(reader, parser, symbol, period, parameters)
     formulas = tuple(terms.values())
     timed = any(n.op == "sym" and n.payload == TIME for n in walk(formulas))
     semilinear = Semilinear(
         *(parser.k, parser.x, symbol, period, start),
         *(inner, tuple(terms), formulas, _kept(name, dealias), timed),
     )
+    _check(name, semilinear, parameters)
     shown = reader.space.const(Number.rational(0))
     zero, one = Fraction(0), Fraction(1)
     generators = [[[EIGENVALUE, zero], [zero, zero]], [[zero, one], [zero, zero]]]
@@ -254,37 +255,57 @@ def _kept(name: str, dealias: object) -> Fraction:
     return kept
 
 
-def _check(
-    reader: Reader,
-    parser: _Parser,
-    symbol: tuple[Expr, ...],
-    period: Expr,
-    parameters: dict[str, Number],
-) -> None:
+def _check(name: str, semilinear: Semilinear, parameters: Mapping[str, Number]) -> None:
     """Raise :class:`SceneError` unless the period is positive and L maps real functions to real functions."""
-    domain = FloatDomain(0.0)
-    values: dict[str, float] = {name: float(number) for name, number in parameters.items()}
-    (size,) = evaluate([period], domain, values)
+    values = {key: float(number) for key, number in parameters.items()}
+    (size,) = evaluate([semilinear.length], FloatDomain(0.0), values)
     if not (math.isfinite(size) and size > 0):
-        raise SceneError(f"length = {size:g}", where=reader.name, expected="a positive number")
+        raise SceneError(f"length = {size:g}", where=name, expected="a positive number")
     for k in SAMPLES:
-        try:
-            plus = evaluate(list(symbol), domain, {**values, parser.k: k})
-            minus = evaluate(list(symbol), domain, {**values, parser.k: -k})
-            finite = all(map(math.isfinite, (*plus, *minus)))
-        except (ArithmeticError, ValueError):
-            finite = False
-        if not finite:
+        pair = _symbols(semilinear, values, k)
+        if pair is None:
             raise SceneError(
                 f"L is not finite at k = {k:g}",
-                where=reader.name,
+                where=name,
                 expected="a formula L that is finite for all wave numbers k",
             )
-        expected = [plus[0], *(-y for y in plus[1:])]
-        if any(abs(a - b) > 1e-9 * (1 + abs(a)) for a, b in zip(expected, minus, strict=True)):
-            raise SceneError(
-                f"L does not map real functions with the wave number k = {k:g} to real functions",
-                where=reader.name,
-                expected="a formula L whose value at -k is the complex conjugate of its value at k",
-                hint="write I*k for d/dx and abs(k) for sqrt(-d^2/dx^2)",
-            )
+        _require_real(name, pair, f"k = {k:g}")
+
+
+def check_operator(problem: Problem, semilinear: Semilinear) -> None:
+    """Raise :class:`SceneError` as :func:`SemilinearScene` does, for the current values of the parameters and
+    for further values of the run-time parameters (:func:`codegen.scene.orbit.variants`)."""
+    _check(problem.name, semilinear, problem.parameters)
+    for other in variants(problem):
+        values = {key: float(number) for key, number in other.parameters.items()}
+        shown = "".join(f", {key} = {values[key]:g}" for key in problem.runtime)
+        for k in SAMPLES:
+            # The formula may be undefined for other values of the parameters.
+            if (pair := _symbols(semilinear, values, k)) is not None:
+                _require_real(problem.name, pair, f"k = {k:g}{shown}")
+
+
+def _symbols(
+    semilinear: Semilinear, values: Mapping[str, float], k: float
+) -> tuple[list[float], list[float]] | None:
+    """Return the complex conjugate of the Fourier symbol at k, and the symbol at -k, or None if they are not
+    finite."""
+    domain = FloatDomain(0.0)
+    try:
+        plus, minus = (
+            evaluate(list(semilinear.symbol), domain, {**values, semilinear.wave: x}) for x in (k, -k)
+        )
+    except (ArithmeticError, ValueError):
+        return None
+    finite = all(map(math.isfinite, (*plus, *minus)))
+    return ([plus[0], *(-y for y in plus[1:])], minus) if finite else None
+
+
+def _require_real(name: str, pair: tuple[list[float], list[float]], place: str) -> None:
+    if any(abs(a - b) > 1e-9 * (1 + abs(a)) for a, b in zip(*pair, strict=True)):
+        raise SceneError(
+            f"L does not map real functions with the wave number {place} to real functions",
+            where=name,
+            expected="a formula L whose value at -k is the complex conjugate of its value at k",
+            hint="write I*k for d/dx and abs(k) for sqrt(-d^2/dx^2)",
+        )

@@ -61,7 +61,7 @@ def to_arrays(data: Data, target: str) -> Arrays:
         raise TableauError(
             f"a tableau of format {family} cannot be written as {target}",
             where=str(data.get("name")),
-            expected="a JSON file, which can represent every tableau",
+            expected="a TOML or JSON file, which can represent every tableau",
         )
     if data.get("numbers") or "low_storage" in data:
         try:

@@ -86,8 +86,8 @@ def certify_solution(
     """Return a solution near ``point``, and prove its order.
 
     ``point`` contains values of the free coefficients of the ansatz. ``name`` and ``source`` are entries of
-    the tableau file. Raises NotProved if the required order cannot be proved, or if a coefficient exceeds the
-    bound of the option ``--size``.
+    the tableau file. Raises NotProved if the required order cannot be proved, or if a coefficient violates
+    the option ``--size`` or ``--positive``.
 
     >>> from orderconds.solve.spec import Spec
     >>> from orderconds.solve.problem import find_problem
@@ -98,7 +98,7 @@ def certify_solution(
     """
     rounded, pinned, solved = _rounded_free(problem, np.array(point), FINE if minimised else STEPS)
     sharp = _newton(problem, rounded, pinned, solved)
-    _require_size(problem, pinned, sharp)
+    _require_bounds(problem, pinned, sharp)
     ansatz = renamed(problem.ansatz, name)
     forms: dict[str, ClosedForm] | None = None
     if not (minimised and pinned and solved):
@@ -236,21 +236,29 @@ def _newton(
     return values
 
 
-def _require_size(problem: Problem, pinned: dict[int, Fraction], sharp: dict[int, arb]) -> None:
-    """Raise NotProved if the absolute value of a coefficient exceeds the bound of the option ``--size``."""
+def _require_bounds(problem: Problem, pinned: dict[int, Fraction], sharp: dict[int, arb]) -> None:
+    """Raise NotProved if a coefficient violates the option ``--size`` or ``--positive``."""
     bound = problem.spec.size
-    if bound is None:
+    if bound is None and not problem.positive:
         return
     ring = Balls(BITS)
-    values = [
+    free = [
         ring.enclose(sharp[j]) if j in sharp else ring.constant(pinned[j])
         for j in range(len(problem.ansatz.free))
     ]
-    # Without ERROR, a coefficient that is equal to the bound could be rejected because of a rounding error.
-    limit = ring.constant(bound + ERROR)
-    for name, x in zip(problem.ansatz.cells, problem.ansatz.coefficients(values, ring), strict=True):
-        if 1 in (ring.sign(x - limit), ring.sign(-x - limit)):
-            raise NotProved(f"{name} exceeds the bound {bound} of --size")
+    names, cells = problem.ansatz.cells, problem.ansatz.coefficients(free, ring)
+    if bound is not None:
+        # Without ERROR, a coefficient that is equal to the bound could be rejected because of a rounding error.
+        limit = ring.constant(bound + ERROR)
+        for name, x in zip(names, cells, strict=True):
+            if 1 in (ring.sign(x - limit), ring.sign(-x - limit)):
+                raise NotProved(f"{name} exceeds the bound {bound} of --size")
+    weights = problem.weights(free, ring)
+    names = (*names, *(f"b{i}" for i in range(1, len(weights) + 1)))
+    values = [*cells, *weights]
+    for place in problem.positive:
+        if ring.sign(values[place] - ring.constant(ERROR)) != 1:
+            raise NotProved(f"{names[place]} is not positive, contrary to --positive")
 
 
 def _square_roots(problem: Problem) -> dict[str, arb]:

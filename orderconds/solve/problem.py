@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import cached_property, lru_cache
 
 import numpy as np
@@ -22,8 +23,9 @@ from orderconds.solve.tape import Floats, Tape
 from orderconds.tableau import CommutatorFree, Method, RungeKutta
 from orderconds.tableau.unknowns import RootedRing
 
-SMALLEST = 0.01
-"""Lower bound of the coefficients that must be positive."""
+MARGIN = 0.01
+"""If a coefficient must be positive but is not, the search moves it towards this value. Each positive value
+is accepted."""
 
 
 @dataclass(frozen=True)
@@ -124,39 +126,60 @@ class Problem:
     @cached_property
     def positive(self) -> tuple[int, ...]:
         """Return the indices of the coefficients that must be positive. Index k refers to output k of the
-        program :attr:`coefficients`."""
+        program :attr:`coefficients`. Constant weights are not included. Raises InputError if a constant
+        weight is not positive."""
         names = self.ansatz.cells
         indices: list[int] = []
         for wish in self.spec.positive:
+            places = [k for k, name in enumerate(names) if name == wish]
             if wish == "b":
                 places = list(range(len(names), self.coefficients.size))
-            else:
-                places = [k for k, name in enumerate(names) if name == wish]
             if not places:
                 raise InputError(
                     f"{wish!r}",
                     where="--positive",
                     expected=f"b (all weights), or one of the nonconstant coefficients {', '.join(names)}",
                 )
-            indices += places
+            constants = self._constant_weights()
+            indices += [k for k in places if k - len(names) not in constants]
+            for i, value in constants.items():
+                if wish == "b" and value <= 0:
+                    raise InputError(
+                        f"the constraints imply b{i + 1} = {value}",
+                        where="--positive",
+                        expected="constraints that allow positive weights",
+                    )
         return tuple(indices)
+
+    def _constant_weights(self) -> dict[int, Fraction]:
+        """Return the weights that are rational constants. The key of b_i is i - 1."""
+        ring = Traces(len(self.ansatz.free))
+        constants = (x.constant for x in self.weights(ring.inputs, ring))
+        return {i: x for i, x in enumerate(constants) if x is not None}
 
     def bounds(self, points: Floats) -> tuple[Floats, Floats]:
         """Return the violations of the bounds on the coefficients. Also return the derivatives of the
         violations with respect to the free coefficients. Each row of ``points`` contains values of the free
         coefficients, and gives one row of violations.
 
-        If a bound is satisfied, its violation is zero.
+        If a bound is satisfied, its violation is zero. The bound of the option ``--size`` applies to the
+        coefficients in the tableau file (``ansatz.cells``). For low-storage schemes, it also applies to the
+        weights b_i, the coefficients of the Runge-Kutta method whose conditions are solved. For other
+        commutator-free methods, it does not apply to b_i, because b_i is a sum of several coefficients.
         """
         values, slopes = self.coefficients.jacobians(points)
         rows, derivatives = [], []
         if self.positive:
             places = list(self.positive)
-            rows.append(np.maximum(0.0, SMALLEST - values[:, places]))
+            required = values[:, places]
+            # A coefficient between 0 and MARGIN is positive, so it is no violation.
+            rows.append(np.where(required > 0, 0.0, MARGIN - required))
             derivatives.append(-slopes[:, places])
         if self.spec.size is not None:
-            rows.append(np.maximum(0.0, np.abs(values) - float(self.spec.size)))
-            derivatives.append(slopes * np.sign(values)[..., None])
+            count = self.coefficients.size if self.ansatz.abelian else len(self.ansatz.cells)
+            cells, sloped = values[:, :count], slopes[:, :count]
+            rows.append(np.maximum(0.0, np.abs(cells) - float(self.spec.size)))
+            derivatives.append(sloped * np.sign(cells)[..., None])
         if not rows:
             return values[:, :0], slopes[:, :0]
         beyond, sloped = np.concatenate(rows, axis=1), np.concatenate(derivatives, axis=1)

@@ -385,6 +385,30 @@ def test_an_event_function_that_fails_ends_the_run_at_the_last_good_state(target
         integrator.integrate([1, 0, 0], 0, 2, 0.5, events=[3])
 
 
+@pytest.mark.parametrize("target", TARGETS)
+@pytest.mark.parametrize("sign", [1, -1])
+def test_the_events_of_a_failed_step_are_found_when_the_run_continues(target: str, sign: int) -> None:
+    integrator = loaded("rotation", "rkmk:rk4", target, events=1)
+
+    def fails(t: float, y: list[float]) -> float:
+        return math.nan if sign * t > 1.4 else (sign * t - 0.3) * (sign * t - 1.1)
+
+    with pytest.raises(StepFailed) as failure:
+        integrator.integrate([1, 0, 0], 0, sign * 2, sign * 0.5, events=[fails])
+    done = failure.value.arrival
+    assert failure.value.status == Status.BAD_EVENT
+    assert done.t == sign
+    assert [x.t for x in done.crossings] == pytest.approx([sign * 0.3])
+    rest = integrator.integrate(done.state, done.t, sign * 2, done.h, events=[lambda t, y: sign * t - 1.1])
+    assert [x.t for x in rest.crossings] == pytest.approx([sign * 1.1])
+
+
+@pytest.mark.parametrize("steps", [10**17, 2**62])
+def test_a_trajectory_that_does_not_fit_in_memory_is_refused(steps: int) -> None:
+    with pytest.raises(InputError, match=f"not enough memory for {steps + 1} states"):
+        loaded("rotation", "rkmk:rk4", "c").trajectory([1, 0, 0], 0.5, steps)
+
+
 def test_inputs_and_single_precision_are_supported() -> None:
     driven = loaded("actuated_rigid_body", "rkmk:rk4", inputs=("u0", "u1", "u2"), events=1)
     found = driven.integrate(

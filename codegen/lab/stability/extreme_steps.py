@@ -349,7 +349,7 @@ class Rounding(BallDomain):
         pairs = zip(images, after, moves, strict=True)
         return [(x + a * x + b * y).mid() for x, y, (a, b) in pairs]
 
-    def increment(self, x: Scalar) -> Scalar:
+    def increment(self, x: Scalar, unknowns: Sequence[Scalar]) -> Scalar:
         """Return the increment of ``x`` for a difference quotient in Newton's method: 2^-40 max(1, |x|)."""
         return arb((1, -40)) * max(arb(1), abs(x.mid()))
 

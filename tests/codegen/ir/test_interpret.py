@@ -4,13 +4,16 @@ import math
 from fractions import Fraction
 
 import pytest
+from sympy import Matrix, Rational, symbols
 
+from codegen.groups import LeftMultiplication, Rn
 from codegen.ir.ball_domain import BallDomain
 from codegen.ir.domain import FloatDomain, NotConverged, PreciseDomain, SeriesDomain
 from codegen.ir.interpret import _solved, interpret
 from codegen.lower import lower, problem_for
 from codegen.method import Method
 from codegen.passes import optimise
+from codegen.scene import FieldScene
 from orderconds.ring import QQ
 from tests.strategies import butcher, field_scene, hamiltonian_scene, shipped
 
@@ -64,6 +67,22 @@ def test_a_block_that_does_not_settle_is_named():
     program = lower(scene, method)
     with pytest.raises(NotConverged, match=r"^stages did not converge in 30 sweeps"):
         interpret(program, scene, FloatDomain(5.0), start(scene, FloatDomain(5.0)), limit=30, newton=False)
+
+
+def test_newtons_method_in_doubles_does_not_depend_on_the_units_of_the_state():
+    x, y = symbols("x y", real=True)
+
+    def end(unit):
+        f = Matrix([y, -20 * x - 30 * y - 20 * x**3 / unit**2])
+        y0 = [unit, unit / 2]
+        scene = FieldScene(
+            group=Rn(2), action=LeftMultiplication(), y=Matrix([x, y]), f=f, y0=y0, span=(0, 1)
+        )
+        domain = FloatDomain(0.2)
+        program = lower(scene, Method("rk", shipped("gauss2")))
+        return [float(x / float(unit)) for x in interpret(program, scene, domain, start(scene, domain))["y"]]
+
+    assert end(Rational(1, 2**40)) == pytest.approx(end(Rational(1)), rel=1e-13)
 
 
 def test_the_last_change_of_a_ball_is_written_with_two_digits():

@@ -240,6 +240,19 @@ def test_a_singular_matrix_has_no_inverse():
     assert all(map(math.isnan, MatrixInverse(2).in_doubles([1.0, 2.0, 2.0, 4.0])))
 
 
+@pytest.mark.parametrize("carried_out", [by_executor, in_python, in_c])
+def test_a_matrix_that_is_singular_or_not_finite_has_an_inverse_of_nans(carried_out):
+    function = MatrixInverse(3)
+    call = carried_out(Unit((), (), (), tuple(matrix_functions([function], DOUBLE))), function)
+    for place in range(9):
+        for value in (math.inf, -math.inf, math.nan):
+            a = [3.0, 1.0, 0.0, 0.0, 0.0, 4.0, 0.0, 2.0, 1.0]
+            a[place] = value
+            assert all(map(math.isnan, function.in_doubles(a)))
+            assert all(map(math.isnan, call(a))), (place, value)
+    assert all(map(math.isnan, call([1.0, 2.0, 0.0, 2.0, 4.0, 0.0, 0.0, 0.0, 1.0])))
+
+
 def test_the_text_of_the_functions_does_not_grow_with_the_matrix():
     lengths = set()
     for n in (5, 9):

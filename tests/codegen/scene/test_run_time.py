@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from sympy import Matrix, Symbol, cos, diag, sin, symbols
+from sympy import Matrix, Symbol, cos, diag, pi, sin, symbols
 
 from codegen.errors import SceneError
 from codegen.groups import SO3, LeftMultiplication, Rn, Rotation
@@ -12,6 +12,7 @@ from codegen.scene import (
     FieldScene,
     HamiltonianScene,
     HamiltonianSiteScene,
+    SemilinearScene,
     SiteScene,
     StiefelScene,
     banded,
@@ -106,6 +107,13 @@ def damped_chain():
     )
 
 
+def damped_wave():
+    """The symbol of L is real, but it is an even function only if the parameter is 0."""
+    u, wave, x = symbols("u wave x", real=True)
+    L, N = -(wave**2) + ZERO * wave, -(u**3)
+    return SemilinearScene(u=u, k=wave, x=x, L=L, N=N, length=2 * pi, u0=cos(x), span=(0, 1))
+
+
 SCENES = {
     "in the flow of A, the formula for p0 is wrong": stated_flow,
     "the parts T, V add up to": parts_without_a_term,
@@ -113,6 +121,7 @@ SCENES = {
     "the velocity is not tangent": orthonormal_columns,
     "the sum of the fields of all parts": chain_with_parts,
     "the total energy of": damped_chain,
+    "L does not map real functions": damped_wave,
 }
 
 

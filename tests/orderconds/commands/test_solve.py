@@ -87,6 +87,24 @@ def test_fixed_entries_are_in_the_file() -> None:
     assert 'A = [[], ["2/5"], ["0", ' in found["tableau"]
 
 
+@pytest.mark.parametrize(
+    "args",
+    [
+        "rk --stages 2 --order 2 --explicit --positive b --fix b1=1/200",
+        "rk --stages 2 --order 2 --explicit --positive b --fix c2=100",
+    ],
+)
+def test_every_positive_weight_is_accepted(args: str) -> None:
+    """In the second case, the weight b_2 = 1/200 is computed by the search."""
+    assert '"1/200"' in record(*args.split(), "--starts", "64")["tableau"]
+
+
+def test_the_bound_of_size_does_not_apply_to_sums_of_coefficients() -> None:
+    args = "cf --stages 1 --order 2 --exponentials 2 --inner 1 --size 1/2 --starts 64"
+    found = record(*args.split())
+    assert 'exp = [["1/2"], ["1/2"]]' in found["tableau"]
+
+
 def test_two_stages_of_order_three_are_refuted() -> None:
     proof = record("vcg", "--stages", "2", "--order", "3", status=1)["proof"]
     assert proof["reason"] == "3*b2^2 - 3*b2 + 1 = 0 has no real root (Sturm)"
@@ -130,6 +148,7 @@ def test_nothing_found_says_what_was_tried() -> None:
         ("rk --stages 2 --order 2 --explicit --fix a11=1", "contradicts"),
         ("rk --stages 2 --order 2 --fix a99=1", "unknown coefficient"),
         ("rk --stages 2 --order 2 --positive q", "--positive"),
+        ("rk --stages 2 --order 2 --positive b --fix b1=0", "the constraints imply b1 = 0"),
         ("rk --stages 2 --order 2 --size -1", "--size"),
         ("rk --stages 2 --order 2 --size 1e999999999", "--size"),
         ("rk --stages 2 --order 2 --size 1/0", "--size"),

@@ -22,7 +22,7 @@ def test_arrays_make_the_same_tableau_again(name: str) -> None:
 
 @pytest.mark.parametrize("name", ["strang", "magnus4"])
 def test_families_without_arrays_are_refused(name: str) -> None:
-    with pytest.raises(TableauError, match="as a table; expected a JSON file"):
+    with pytest.raises(TableauError, match="as a table; expected a TOML or JSON file"):
         to_arrays(as_data(Tableau.load(find(name))), "a table")
 
 

@@ -58,7 +58,7 @@ def numbers(tableau: Tableau) -> list:
 def check_reads_back(name: str, of: str) -> None:
     tableau, data = loaded(name), content(name)
     if not carries(name, of):
-        with pytest.raises(InputError, match="expected a JSON file"):
+        with pytest.raises(InputError, match="expected a TOML or JSON file"):
             export(data, of)
         return
     try:

@@ -38,3 +38,11 @@ def test_a_coefficient_may_equal_the_bound():
     values = {"b1": 0.5, "b2": 0.5, "a11": 0.5, "a12": 0.0, "a21": 0.5, "a22": 0.0}
     point = [values[name] for name in problem.ansatz.free]
     assert module.certify_solution(problem, point, "m", "a test").certificate == "exact"
+
+
+def test_a_weight_that_is_zero_up_to_rounding_errors_is_not_positive():
+    problem = find_problem("rk", 1, Spec(stages=2, explicit=True, positive=("b",), fix=("a21=1",)), "full")
+    residuals, _ = problem.system(np.array([[1.0, 1e-17]]))
+    assert not residuals.any()
+    with pytest.raises(NotProved, match="b2 is not positive"):
+        module._require_bounds(problem, {0: Fraction(1), 1: Fraction(0)}, {})

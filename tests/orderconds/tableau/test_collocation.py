@@ -99,7 +99,7 @@ def test_another_kind_is_refused_with_the_kinds_there_are() -> None:
 
 
 def test_a_lobatto_method_has_two_stages_or_more() -> None:
-    with pytest.raises(InputError, match="at least 2 stages"):
+    with pytest.raises(InputError, match="with 1 stage; expected at least 2 stages"):
         construct("lobatto3a", 1)
 
 
