@@ -3,8 +3,10 @@
 If a step of size h fails, the emitted function first tries the same step with another initial guess. This
 guess does not use the solutions of earlier steps. If this attempt fails, too, the function tries shorter
 steps: it halves the step size until an attempt succeeds. Each solution is then the initial guess for a longer
-step, until a step of size h succeeds. The continuation finds the solution that changes continuously as h
-grows from 0.
+step, until a step of size h succeeds.
+
+The equations of a step may have several solutions. For small h, one of them tends to the exact motion. The
+first successful attempt may find another solution, and the continuation then follows this other solution.
 """
 
 from __future__ import annotations
