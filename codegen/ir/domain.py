@@ -203,7 +203,7 @@ class FloatDomain:
 
     def increment(self, x: float, unknowns: Sequence[float]) -> float:
         """Return the increment for a difference quotient, see :meth:`Differenced.increment`."""
-        # With d = 2^-26 s, the truncation error d/s and the rounding error 2^-53 s/d are about equal.
+        # For forward differences, a good factor is 2^-26, about the square root of the unit roundoff 2^-53.
         scale = max(self.size / abs(self.h) if self.h else 1.0, *map(abs, unknowns)) or 1.0
         return math.ldexp(max(abs(x), min(1.0, scale)), -26)
 

@@ -129,7 +129,8 @@ def check_action(orbit: Orbit) -> None:
         ("act", action.act(d, group, group.identity(d), y), y, unmoved),
         ("velocity", action.velocity(d, group, x, y), tuple(slope), "d/deps act(exp(eps x), y) at eps = 0"),
     ]
-    # The tests of this project check the other laws for the actions of this package.
+    # The laws (g k).y = g.(k.y) and actexp(x, y) = exp(x).y are checked only if a user defined the action or
+    # the group. For the actions and groups of this package, the tests of the package check these laws.
     if not (is_built_in(action) and is_built_in(group)):
         # Short vectors keep the products near the identity, where a local action is defined.
         g, k = (

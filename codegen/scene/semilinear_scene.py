@@ -280,7 +280,7 @@ def check_operator(problem: Problem, semilinear: Semilinear) -> None:
         values = {key: float(number) for key, number in other.parameters.items()}
         shown = "".join(f", {key} = {values[key]:g}" for key in problem.runtime)
         for k in SAMPLES:
-            # The formula may be undefined for other values of the parameters.
+            # An infinite or undefined L is no error here, because the user did not choose these parameters.
             if (pair := _symbols(semilinear, values, k)) is not None:
                 _require_real(problem.name, pair, f"k = {k:g}{shown}")
 

@@ -248,7 +248,8 @@ def _require_bounds(problem: Problem, pinned: dict[int, Fraction], sharp: dict[i
     ]
     names, cells = problem.ansatz.cells, problem.ansatz.coefficients(free, ring)
     if bound is not None:
-        # Without ERROR, a rounding error could make a coefficient that is equal to the bound exceed it.
+        # If a coefficient is equal to the bound, its computed value may exceed the bound by a rounding error.
+        # ERROR allows for this error.
         limit = ring.constant(bound + ERROR)
         for name, x in zip(names, cells, strict=True):
             if 1 in (ring.sign(x - limit), ring.sign(-x - limit)):

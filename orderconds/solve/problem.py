@@ -163,9 +163,9 @@ class Problem:
         coefficients, and gives one row of violations.
 
         If a bound is satisfied, its violation is zero. The bound of the option ``--size`` applies to the
-        coefficients in the tableau file (``ansatz.cells``). For low-storage schemes, it also applies to the
-        weights b_i, the coefficients of the Runge-Kutta method whose conditions are solved. For other
-        commutator-free methods, it does not apply to b_i, because b_i is a sum of several coefficients.
+        coefficients in the tableau file (``ansatz.cells``). For low-storage schemes, the bound also applies
+        to the weights b_i (:meth:`weights`). For other commutator-free methods, the bound does not apply to
+        b_i, because b_i is a sum of several coefficients.
         """
         values, slopes = self.coefficients.jacobians(points)
         rows, derivatives = [], []

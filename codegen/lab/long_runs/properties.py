@@ -99,7 +99,8 @@ def properties(compiled: Compiled, run: LongRun) -> Properties:
     kept = run.kept[0] if run.kept and not run.failure else None
     drifts = None if kept is None else kept.drift.drifts
     if kept is not None and kept.drift.law == ROUNDING:
-        # In a run with smaller rounding errors, a quantity that the method changes could drift.
+        # Rounding errors can hide a drift. Therefore ``drifts`` is False only if the method conserves the
+        # quantity exactly, and otherwise None (unknown).
         start = float(compiled.scene.span[0]), runner.initial
         drifts = False if kept.name in exactly_conserved(compiled, [start], size) else None
     return Properties(
@@ -119,10 +120,10 @@ def _is_rounded(method: Method) -> bool:
 
 
 def revealing_size(compiled: Compiled, runner: Emitted, h: float) -> float:
-    """Return ``h`` or a longer step size h 2^k. A step of twice the returned size has a visible error.
+    """Return ``h``, doubled until a step of twice the size would have a visible error (:data:`VISIBLE`).
 
-    The steps start at the initial state, and :data:`VISIBLE` defines a visible error. The returned size is
-    also the last one if a longer step fails or exceeds the time span of the scene.
+    The steps start at the initial state. The doubling also ends if a step fails, or if a step of twice the
+    size would be longer than the time span of the scene.
     """
     first, last = map(float, compiled.scene.span)
     start = runner.initial

@@ -91,8 +91,9 @@ def _failure(compiled: Compiled, runner: Emitted, exact: Reference, steps: int) 
 def _size(runner: Emitted, exact: Reference) -> float:
     """Return the larger norm of the initial state and of the exact final state.
 
-    If both states are zero, the largest absolute values of the coordinates between them replace the states.
-    A change of the unit of the state changes the size by the same factor.
+    If both states are zero, return the norm of the vector ``exact.sizes``. For each coordinate, this vector
+    contains the largest absolute value at the steps of the reference solution. A change of the unit of the
+    state changes the size by the same factor.
     """
     ends = max(math.hypot(*runner.initial), math.hypot(*map(float, exact.state)))
     return ends or math.hypot(*exact.sizes)
