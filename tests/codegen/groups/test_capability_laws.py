@@ -117,7 +117,9 @@ def test_right_formulas_are_accepted(name):
     check_laws(own(GROUPS[name]))
 
 
-@pytest.mark.parametrize("around", [lambda g: g, lambda g: Product(Rn(1), g), Cotangent], ids=str)
+@pytest.mark.parametrize(
+    "around", [lambda g: g, lambda g: Product(Rn(1), g), Cotangent], ids=["itself", "product", "bundle"]
+)
 def test_a_group_is_checked_in_products_and_bundles(around):
     with pytest.raises(SceneError, match=r"SO\(3\) violates"):
         check_laws(around(own(SO3(), ad=opposite(SO3, "ad", 0))))
