@@ -62,11 +62,11 @@ def command(
     """Run methods on SCENE over many steps and report the drift of energy, invariants and manifold equations.
 
     The column "law" describes how a quantity deviates from its initial value: exact, bounded, random walk,
-    drift, rounding, lost or too short to tell. A drift needs a run over the span of SCENE. The word
-    "rounding" means that rounding errors explain the deviation, and "lost" that it is about as large as the
-    quantity. If a method conserves a quantity in exact arithmetic, the rounding errors are measured with and
-    without compensated summation. Their root mean square (rms) over several initial states grows like
-    steps^p, and this column contains p. If a run ends early or a method fails, the exit status is 1.
+    drift, rounding, lost or too short to tell. The word "drift" is used only if the run covers the time span
+    of SCENE. The word "rounding" means that rounding errors explain the deviation, and "lost" that it is
+    about as large as the quantity. If a method conserves a quantity in exact arithmetic, the rounding errors
+    are measured with and without compensated summation. The rms error over several initial states grows like
+    steps^p. The column "steps^p" contains p. If a run ends early or a method fails, the exit status is 1.
 
     \b
     Examples:

@@ -36,17 +36,17 @@ def squares(B: Matrix) -> list[Square]:
 
 
 def _pivot(B: Matrix) -> list[tuple[int, int]]:
-    """Return a vector v with a large value v^T B v, as pairs of an index and the entry 1 or -1.
+    """Return a vector v with a large absolute value of v^T B v, as pairs of an index and the entry 1 or -1.
 
-    If v^T B v were small compared with the entries of B, the terms in :func:`squares` would be large and
-    cancel.
+    If abs(v^T B v) were small compared with the entries of B, the terms in :func:`squares` would be large
+    and cancel.
     """
     n = range(len(B))
     k = max(n, key=lambda i: abs(B[i][i]))
     mixed = [(i, j) for i in n for j in n if i < j]
     i, j = max(mixed, key=lambda p: abs(B[p[0]][p[1]]), default=(k, k))
-    # Here v^T B v for the vector with two entries is larger than abs(B[i][j]).
     if 2 * abs(B[k][k]) < abs(B[i][j]):
+        # With this sign of the second entry, abs(v^T B v) is abs(B[i][i] + B[j][j]) + 2 abs(B[i][j]).
         return [(i, 1), (j, 1 if B[i][j] * (B[i][i] + B[j][j]) >= 0 else -1)]
     return [(k, 1)]
 

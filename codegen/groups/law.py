@@ -32,8 +32,8 @@ Element = Vector[Sized]
 class Law:
     """A law of groups: ``left`` and ``right`` are the values of its two sides, and ``text`` is the law.
 
-    ``method`` is the method of the group that the law defines. If ``slope`` is true, one side is a difference
-    quotient.
+    If the two sides differ, the method of the group with the name ``method`` is probably wrong. If ``slope``
+    is true, one side is a difference quotient.
     """
 
     method: str
@@ -52,8 +52,8 @@ class Sample:
     def __init__(self, group: LieGroup) -> None:
         self.group = group
         self.d = RoundingDomain(0, DIGITS)
-        # The numbers p are primitive roots of the prime q, so the components are distinct and not zero. The
-        # denominators bound the size of the elements.
+        # Each numerator 2 (p^i mod q) - q is odd, so that no component is zero. The numerators of one vector
+        # are distinct, because p is a primitive root of the prime q. The denominators bound the components.
         q, n = 101, group.dim
         self.x, self.y, self.z, self.mu = (
             tuple(self.d.rational(2 * pow(p, i, q) - q, 2 * (q + 10 * n)) for i in range(1, n + 1))
@@ -80,7 +80,7 @@ class Sample:
         return self.group.exp(self.d, self.times(factor, x))
 
     def mul(self, *elements: Element) -> Element:
-        """Return the product of group elements. The first product is that of the first two elements."""
+        """Return the product of group elements, evaluated from left to right."""
         total = elements[0]
         for g in elements[1:]:
             total = self.group.mul(self.d, total, g)

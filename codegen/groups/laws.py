@@ -20,10 +20,11 @@ from codegen.groups.representations import Representation
 
 
 def check_laws(group: LieGroup, where: str = "") -> None:
-    """Raise :class:`SceneError` if a formula of ``group`` violates a law of Lie groups.
+    """Raise :class:`SceneError` if a formula of ``group`` fails or violates a law of Lie groups.
 
-    The error names the class of the group, the law, and the method that the law defines. ``where`` is the
-    name of the scene. Classes of this package are not checked: the tests of this project check them.
+    The error names the class that must be corrected. If a law is violated, the error also names the law and
+    a method of the class that is probably wrong. ``where`` is the name of the scene. Classes of this package
+    are not checked: the tests of this project check them.
     """
     # The laws of a direct product and of T*G follow from those of the factors and of G.
     if (product := group.offers(DirectProduct)) is not None:
@@ -38,7 +39,7 @@ def check_laws(group: LieGroup, where: str = "") -> None:
             raise SceneError(
                 f"a formula of the group {group.name} fails at a sample element: {error}",
                 where=where,
-                expected="formulas that are valid near the neutral element, and exp also at 0",
+                expected="formulas valid near the neutral element, and a formula for exp(x) valid at x = 0",
                 hint=f"correct the class {type(group).__name__}",
             ) from error
 
@@ -92,7 +93,7 @@ def _check(sample: Sample, law: Law, where: str) -> None:
 
 
 def _sizes(s: Sample) -> Iterator[Law]:
-    """Yield laws whose sides have the numbers of components that ``dim``, ``size`` and ``blocks`` state."""
+    """Yield laws that compare the lengths of vectors and the sums of ``blocks`` with ``dim`` and ``size``."""
     group, d = s.group, s.d
     dims, sizes = zip(*group.blocks, strict=True)
     sums = tuple(d.rational(sum(column)) for column in (dims, sizes))
@@ -120,7 +121,7 @@ def _laws_of_products(s: Sample) -> Iterator[Law]:
     text = "velocity(x, g) = d/deps exp(eps x) g"
     yield Law("velocity", text, group.velocity(d, s.x, g), moved, slope=True)
     for text, residual in group.laws(d, g):
-        # The summand 1 gives the residual a scale.
+        # The law is residual = 0. Adding 1 to both sides does not change their difference.
         one = d.rational(1)
         yield Law("laws", text, (residual + one,), (one,))
 
