@@ -47,9 +47,10 @@ def with_sums(program: Program, problem: Problem) -> Program:
 
 
 def _expanded(assign: Assign, problem: Problem, build: Builder) -> tuple[Assign, ...]:
-    """Compute each sum over all sites in a separate assignment, and then the targets of ``assign``.
+    """Return assignments that are equivalent to ``assign``.
 
-    If ``assign`` needs no such sum, return only ``assign``.
+    The first assignments compute the sums over all sites, one sum each. The last assignment computes the
+    targets of ``assign`` from these sums. If ``assign`` needs no sum, the result contains only ``assign``.
     """
 
     # An inner product needs two operations: one at each site, and one that adds the results of all sites.

@@ -173,7 +173,7 @@ class TaylorSweeps:
         ]
         names = [*own, *(s for column in around for s in column)]
         sym = self.domain.space.sym
-        # Coefficients of higher degree are expressions in these symbols.
+        # The coefficients of the next degree are expressions in these symbols and in those of lower degrees.
         self.recurrence.append([sym(s) if s else None for s in names])
         self.coefficients.append([sym(s) if s else None for s in own])
         self._load(every, own, around, degree)

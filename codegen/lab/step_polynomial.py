@@ -24,8 +24,9 @@ degree has about the same error.
 """
 
 NEGLIGIBLE = 1e-30
-"""A function counts as non-negative if it is at least -NEGLIGIBLE * min(1, s), where s bounds its absolute
-value on the step. NEGLIGIBLE is about the largest error of the reference solution.
+"""A function f counts as non-negative on a step if f >= -NEGLIGIBLE * min(1, s), where s is a bound of |f|.
+
+NEGLIGIBLE is about the largest error of the reference solution.
 """
 
 ROUNDING = 1e-45

@@ -143,7 +143,7 @@ def _agrees(scene: Problem) -> bool:
         gamma = differential(scene, orbit.domain, y)
         image = bivector(scene, orbit.domain, y, gamma)
         f = scene.apply(orbit.domain, "field", None, (y,))[0]
-        # Where ``gamma`` is zero, ``image`` is zero, too. If f is not zero there, ``image`` and f differ.
+        # The bivector maps zero to zero. Therefore the field must be zero where ``gamma`` is zero.
         if not all(orbit.sized(a - b, (a, b)) for a, b in zip(image, f, strict=True)):
             return False
     return True

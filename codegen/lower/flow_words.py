@@ -203,7 +203,7 @@ def adjoint_word(parts: Parts, method: Method, tableau: AdjointComposition) -> t
     """Return the flows of a composition, and the label of the family whose order conditions apply.
 
     A step applies Phi* and Phi alternately, and begins with Phi*. Phi is the product of the flows of all
-    summands, and Phi* is the adjoint of Phi.
+    ``parts``, and Phi* is the adjoint of Phi.
     """
     # In each pair, beta_i comes first, because the flows with the duration beta_i h act first.
     both = [(method.number(y), method.number(x)) for x, y in zip(tableau.alpha, tableau.beta, strict=True)]

@@ -143,7 +143,7 @@ class _Framing:
             # The pass cannot rewrite a product if both factors are positions.
             if left in self.relative:
                 raise NotFramed
-            # The product is L R q with L = ``left`` and R = ``right``. It is E q with E = L R.
+            # The product of L = ``left`` and the position R q, with R = ``right``, is E q with E = L R.
             E = left if right is None else self.build.mul(f"r{assign.targets[0].name}", left, right)
             self.relative[assign.targets[0]] = E
             # The new program computes the position E q as q E~, where E~ = q^{-1} E q.

@@ -47,9 +47,10 @@ class Substitute(Struct, frozen=True):
 class UnseenCut(Struct, frozen=True):
     """An object that tests whether the truncation of dexpinv changes a condition.
 
-    ``order`` is the order of the method without truncation. The condition of a tree or forest ``key`` is
-    computed from words, whose letters are trees. ``length(key)`` is the length of the longest of these words.
-    If ``length(key)`` <= ``longest``, the truncation does not change the condition of ``key``.
+    - ``order``: the order of the method without truncation.
+    - ``length``: the condition with the index ``key`` is computed from words. ``length(key)`` is the length
+      of the longest of these words.
+    - ``longest``: the truncation does not change the conditions with ``length(key)`` <= ``longest``.
     """
 
     order: int

@@ -303,8 +303,10 @@ class _Search:
         return None
 
     def _lightest_left(self) -> list[int]:
-        """Skip the first two elements of ``self.pool``. Return the indices of those later elements that have
-        the lowest order in the step size h."""
+        """Return the indices of the elements of lowest order in the step size h in ``self.pool[2:]``.
+
+        The indices belong to ``self.pool``, so they are at least 2.
+        """
         least = [min(map(self.algebra.grade, x)) for x, _ in self.pool]
         return [n for n, grade in enumerate(least) if n > 1 and grade == min(least[2:])]
 
