@@ -15,7 +15,8 @@ from codegen.scene.problem import Problem
 DISPLACEMENT = 1e-4
 """:func:`reaches_orbit` moves the initial state by this distance, and then projects the moved point.
 
-The unit of all distances is the norm of the initial state, so the result does not depend on units.
+The unit of all distances is the norm of the coordinates of the initial state that these displacements change.
+Therefore the result does not depend on the unit of these coordinates.
 """
 
 REDUCED = 1e-2
@@ -43,8 +44,11 @@ def reaches_orbit(problem: Problem) -> bool:
     start = tuple(map(float, field.initial(d)))
     tangent = _tangent(field, start)
     axes = [tuple(float(i == j) for j in range(len(start))) for i in range(len(start))]
-    distance = DISPLACEMENT * (math.hypot(*start) or 1.0)
-    for normal in _orthonormal(axes, tangent):
+    normals = _orthonormal(axes, tangent)
+    # A coordinate that no displacement changes, such as a momentum, may have another unit.
+    changed = [y for i, y in enumerate(start) if any(abs(n[i]) > INDEPENDENT for n in normals)]
+    distance = DISPLACEMENT * (math.hypot(*changed) or 1.0)
+    for normal in normals:
         moved = tuple(y + distance * x for y, x in zip(start, normal, strict=True))
         end = field.action.to_orbit(d, field.group, moved, start)
         rest = _remainder([float(a - b) for a, b in zip(end, start, strict=True)], tangent)

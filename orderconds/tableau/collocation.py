@@ -222,8 +222,8 @@ def construct(kind: str, stages: int) -> Tableau:
         raise UnknownName(f"unknown kind {kind!r}", expected=f"one of {', '.join(KINDS)}")
     rule, stages = KINDS[kind], integer(stages, "stages", CONSTRUCTED_STAGES)
     if stages < rule.least:
-        found = f"{kind} with {stages} stage{'' if stages == 1 else 's'}"
-        raise InputError(found, expected=f"at least {rule.least} stages")
+        given = f"{kind} with {stages} stage{'' if stages == 1 else 's'}"
+        raise InputError(given, expected=f"at least {rule.least} stages")
     try:
         nodes = Nodes(stages, rule.left, rule.right)
     except DegreeError as problem:

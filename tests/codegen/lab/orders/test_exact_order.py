@@ -104,7 +104,7 @@ def test_a_field_whose_derivatives_vanish_at_the_start_shows_its_order_later(met
     assert (found.order, found.vanishes, found.verdict, found.points) == (4, False, "holds", 2)
     assert Fraction(found.time) > 0
     assert Fraction(found.coefficients[0]) != 0
-    assert "order 4 in exact arithmetic on this scene (at the initial state" in found.sentence()
+    assert "order 4 in exact arithmetic on this scene (computed at a later point of" in found.sentence()
 
 
 def test_an_order_that_no_point_bounds_is_stated_for_the_points_only() -> None:
