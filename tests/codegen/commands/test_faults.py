@@ -159,7 +159,9 @@ REPORT = ("report", "free_rigid_body", "-m", "cg:cg3", "--quick", "--only", "ord
 
 
 @posix
-@pytest.mark.parametrize(("name", "status"), [("SIGKILL", -9), ("SIGINT", 130)])
+@pytest.mark.parametrize(
+    ("name", "status"), [pytest.param("SIGKILL", -9, marks=pytest.mark.slow), ("SIGINT", 130)]
+)
 def test_a_report_that_is_stopped_leaves_whole_pages_and_is_completed_by_the_next(
     name: str, status: int, tmp_path: Path
 ) -> None:

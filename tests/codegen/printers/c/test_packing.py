@@ -30,7 +30,8 @@ def source(module):
 
 
 @pytest.mark.parametrize(
-    "method", [pytest.param(m, marks=pytest.mark.slow if m == "cg:cg5" else ()) for m in METHODS]
+    "method",
+    [pytest.param(m, marks=pytest.mark.slow if m in ("cg:cg5", "vcg:gauss4") else ()) for m in METHODS],
 )
 def test_arrays_of_arguments_change_no_bit(method, monkeypatch):
     apart, together = (emitted(method, wide, monkeypatch) for wide in (10**9, 2))
