@@ -193,8 +193,8 @@ def _file(name: str) -> Path:
 def _enclosed(tableau: Tableau) -> Tableau:
     """Return the tableau with balls (small intervals) as coefficients.
 
-    Each ball contains an exact coefficient. A tableau without a valid proof that exact coefficients exist is
-    returned unchanged.
+    Each ball contains an exact coefficient. If there is no valid proof that exact coefficients exist, the
+    result is the tableau itself.
     """
     if tableau.proof is None:
         return tableau

@@ -85,7 +85,7 @@ def cost(call: Callable[[], object], batch: float = BATCH, batches: int = BATCHE
 
 
 def spans(run: Callable[[int], object], steps: int) -> int:
-    """Return a number n of time spans for an accurate measurement of the CPU time of ``run(n)``.
+    """Return a number n for which ``run(n)`` takes so long that its CPU time can be measured accurately.
 
     ``run(n)`` integrates over n time spans of the scene, with ``steps`` steps for each span.
 

@@ -301,7 +301,7 @@ class _Newton(_Loop):
     def decided(self, finite: Term) -> Statement:
         """Return the statement that sets the status after a sweep.
 
-        The term ``finite`` has a finite value if all changes are finite.
+        The value of the term ``finite`` is an infinity or a NaN if a change of an unknown is one.
         """
         test = is_finite(finite)
         if not self.kept and not self.newton.residuals:

@@ -94,8 +94,8 @@ def errors(figure: Orders, source: Source, run: Run) -> list[tuple[float, float]
 def slope(points: Sequence[tuple[float, float]]) -> float:
     """Return the median of the observed orders between consecutive points (step size, error).
 
-    A pair of consecutive points with a zero error has no observed order. If there is no observed order, the
-    result is 0.
+    If an error of two consecutive points is zero, they have no observed order. If there is no observed order,
+    the result is 0.
 
     >>> slope([(0.4, 16.0), (0.2, 4.0), (0.1, 1.0), (0.05, 1.0)])
     2.0
