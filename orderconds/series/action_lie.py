@@ -231,15 +231,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _varied_behind(self, first: Word, before: Word, after: Word) -> list[Varied]:
-        """Return a list with one map (:data:`Varied`) for each stage j. The map takes each stage i to a
-        coefficient w_ij. The coefficient is defined in three steps:
-
-        1. Add a new letter x to the velocity of stage i.
-        2. With this changed velocity, compute the exponent of the group element of stage j. Let X_ij be the
-           result.
-        3. Apply the series dexpinv_{X_ij} (:meth:`_terms`) to another new letter z. In the result, w_ij is
-           the coefficient of the word that consists of the letters ``first``, the letter z, the letters
-           ``before``, the letter x, and the letters ``after``."""
+        """Return the coefficients of :meth:`_varied_before` for another word. This word consists of the
+        letters ``first``, the letter z, the letters ``before``, the letter x, and the letters ``after``."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(first), len(before) + 1 + len(after)):
             scales = [q * x for x in self._power(0, m, first)] if m else [q] * self.stages

@@ -1,4 +1,4 @@
-"""Whether an orbit is open or reached by the projection does not depend on units."""
+"""The result of ``reaches_orbit`` does not depend on the unit of the state."""
 
 from __future__ import annotations
 
